@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_base_exceptions_h
+#define treacle_base_exceptions_h
+
+#include <deal.II/base/exceptions.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace treacle
+{
+  /// What a user can cause and mend: the message names the parameter or the
+  /// place and says what is allowed. main() prints it alone and exits with 1.
+  class UserError : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+
+  /// Throw a UserError unless @p condition holds.
+  inline void
+  require(const bool condition, const std::string &message)
+  {
+    if (!condition)
+      throw UserError(message);
+  }
+} // namespace treacle
+
+#endif

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_base_exchange_h
+#define treacle_base_exchange_h
+
+#include <treacle/base/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <type_traits>
+#include <vector>
+
+namespace treacle
+{
+  /// What each rank is sent, or what came from each rank.
+  template <typename T>
+  using PerRank = std::vector<std::vector<T>>;
+
+  /// Send to_rank[r] to rank r and return what came from each rank. Collective.
+  /// T must be trivially copyable.
+  template <typename T>
+  PerRank<T>
+  send_and_receive(const MPI_Comm &comm, const PerRank<T> &to_rank)
+  {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const unsigned int n = to_rank.size();
+    std::vector<int>   n_send(n), n_receive(n);
+    for (unsigned int r = 0; r < n; ++r)
+      n_send[r] = to_rank[r].size();
+    MPI_Alltoall(n_send.data(), 1, MPI_INT, n_receive.data(), 1, MPI_INT, comm);
+
+    PerRank<T> from_rank(n);
+    const auto rank = dealii::Utilities::MPI::this_mpi_process(comm);
+    MPI_Datatype type;
+    MPI_Type_contiguous(sizeof(T), MPI_BYTE, &type);
+    MPI_Type_commit(&type);
+    std::vector<MPI_Request> requests;
+    for (unsigned int r = 0; r < n; ++r)
+      if (r == rank)
+        from_rank[r] = to_rank[r];
+      else if (n_receive[r] > 0)
+        {
+          from_rank[r].resize(n_receive[r]);
+          requests.emplace_back();
+          MPI_Irecv(from_rank[r].data(), n_receive[r], type, r, 0, comm, &requests.back());
+        }
+    for (unsigned int r = 0; r < n; ++r)
+      if (r != rank && n_send[r] > 0)
+        {
+          requests.emplace_back();
+          MPI_Isend(to_rank[r].data(), n_send[r], type, r, 0, comm, &requests.back());
+        }
+    MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+    MPI_Type_free(&type);
+    return from_rank;
+  }
+
+  /// Throw on every rank the UserError of the lowest rank on which @p message
+  /// is not empty; return if there is none. Collective.
+  inline void
+  throw_first(const MPI_Comm &comm, const std::string &message)
+  {
+    const unsigned int n = dealii::Utilities::MPI::n_mpi_processes(comm);
+    const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(comm);
+    const unsigned int first =
+      dealii::Utilities::MPI::min(message.empty() ? n : rank, comm);
+    if (first < n)
+      throw UserError(dealii::Utilities::MPI::broadcast(comm, message, first));
+  }
+} // namespace treacle
+
+#endif

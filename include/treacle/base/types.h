@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_base_types_h
+#define treacle_base_types_h
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <array>
+#include <cstdint>
+
+namespace treacle
+{
+  using namespace dealii;
+
+  /// Values per node, face, cell or unknown: owned ones first, then ghosts.
+  using Vector = LinearAlgebra::distributed::Vector<double>;
+
+  /// The packed integer coordinates of a lattice vertex, the same on every rank.
+  using VertexKey = std::uint64_t;
+
+  /// Index of an owned or ghost cell, node or face on this rank.
+  using LocalIndex = unsigned int;
+
+  /// Index of a cell, node or face over all ranks.
+  using GlobalIndex = types::global_dof_index;
+
+  constexpr LocalIndex invalid = numbers::invalid_unsigned_int;
+} // namespace treacle
+
+#endif

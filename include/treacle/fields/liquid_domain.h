@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_fields_liquid_domain_h
+#define treacle_fields_liquid_domain_h
+
+#include <treacle/fields/scene.h>
+#include <treacle/fields/state.h>
+
+namespace treacle
+{
+  /// Volume of the liquid outside solids over all ranks (m^dim).
+  template <int dim>
+  double
+  liquid_volume(const State<dim> &state, const Scene<dim> &scene);
+
+  /// Where the liquid is, and how much of it a cell, face and node carries:
+  /// computed once for each surface. Arrays run over owned entries and ghosts.
+  template <int dim>
+  class LiquidDomain
+  {
+  public:
+    /// @p minimum_theta bounds the liquid part of a dual edge from below. Throws
+    /// a UserError on all ranks where a density or viscosity makes no sense.
+    LiquidDomain(const State<dim> &state,
+                 const Scene<dim> &scene,
+                 const double      minimum_theta);
+
+    const Mesh<dim>  &mesh;
+    const Scene<dim> &scene;
+    const double      minimum_theta;
+
+    // -- cells --
+    std::vector<double>         liquid_volume;    ///< of {phi<0} outside solids (m^dim)
+    std::vector<Point<dim>>     liquid_centre;    ///< its centroid, where it is not empty
+    std::vector<unsigned char>  is_pressure_cell; ///< phi(o) < 0
+    std::vector<unsigned char>  is_active_cell;   ///< wet or pressure cell
+    std::vector<double>         viscosity;        ///< mean over the liquid part (Pa s)
+    std::vector<double>         density;          ///< kg/m^dim
+
+    // -- faces --
+    std::vector<double> open_fraction; ///< alpha: part of the area outside solids
+    std::vector<double> theta;         ///< liquid part of the dual edge
+    std::vector<double> face_mass;     ///< M_f = rho alpha A theta L (kg); 0: no unknown
+    /// Normal velocity where there is no unknown: of walls and solids.
+    std::vector<double> solid_velocity;
+    unsigned int        n_clamped_faces = 0; ///< theta clamped, over all ranks
+
+    // -- nodes --
+    std::vector<unsigned char> is_active_node; ///< of an active cell
+    std::vector<double>        node_mass;      ///< lumped liquid mass (kg), owned nodes
+    std::vector<double>        solid_distance; ///< positive outside solids
+    /// Bit d is set where component d is prescribed (no slip, free slip, solids).
+    std::vector<unsigned char>  constrained;
+    std::vector<Tensor<1, dim>> prescribed; ///< the values
+
+    bool
+    is_liquid_face(const LocalIndex face) const
+    {
+      return face_mass[face] > 0;
+    }
+
+    /// Liquid volume over all ranks (m^dim).
+    double
+    total_volume() const;
+
+  private:
+    void
+    measure_cells(const State<dim> &state);
+
+    void
+    measure_faces(const State<dim> &state);
+
+    void
+    measure_nodes(const State<dim> &state);
+  };
+} // namespace treacle
+
+#endif

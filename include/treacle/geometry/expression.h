@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_geometry_expression_h
+#define treacle_geometry_expression_h
+
+#include <treacle/base/types.h>
+
+#include <deal.II/base/function_parser.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace treacle
+{
+  /// A formula in x,y,z (2D: x,y) and, if @p in_time, t, with pi and what
+  /// muParser and deal.II's FunctionParser know. A plain number is evaluated
+  /// without the parser. Copies share the parser: one thread per process.
+  template <int dim>
+  class Expression
+  {
+  public:
+    /// @p where names the parameter, as in "Liquid 1/Velocity". Throws a
+    /// UserError that quotes the formula if it cannot be understood.
+    Expression(const std::string &formula, const std::string &where, const bool in_time);
+
+    double
+    operator()(const Point<dim> &x, const double t = 0) const
+    {
+      return parser ? parse(x, t) : constant;
+    }
+
+    bool
+    is_constant() const
+    {
+      return !parser;
+    }
+
+  private:
+    double
+    parse(const Point<dim> &x, const double t) const;
+
+    double                               constant = 0;
+    std::shared_ptr<FunctionParser<dim>> parser; // null for a plain number
+  };
+
+
+
+  /// One formula in x,y,z,t per component, separated by semicolons.
+  template <int dim>
+  class VectorExpression
+  {
+  public:
+    VectorExpression(const std::string &formulas, const std::string &where);
+
+    Tensor<1, dim>
+    operator()(const Point<dim> &x, const double t) const
+    {
+      Tensor<1, dim> value;
+      for (unsigned int d = 0; d < dim; ++d)
+        value[d] = component[d](x, t);
+      return value;
+    }
+
+  private:
+    std::vector<Expression<dim>> component;
+  };
+} // namespace treacle
+
+#endif

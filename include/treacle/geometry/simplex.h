@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_geometry_simplex_h
+#define treacle_geometry_simplex_h
+
+#include <treacle/base/types.h>
+
+namespace treacle
+{
+  /// The vertices of a simplex, ordered so that signed_volume() is positive.
+  template <int dim>
+  using Simplex = std::array<Point<dim>, dim + 1>;
+
+  /// One value per vertex of a simplex of dimension dim.
+  template <int dim>
+  using VertexValues = std::array<double, dim + 1>;
+
+  /// Volume (m^dim), positive for right-handed vertex order.
+  template <int dim>
+  double
+  signed_volume(const Simplex<dim> &x);
+
+  /// Gradients (1/m) of the P1 basis functions; they sum to zero.
+  template <int dim>
+  std::array<Tensor<1, dim>, dim + 1>
+  basis_gradients(const Simplex<dim> &x);
+
+  /// Barycentric coordinates of @p p; all are in [0,1] inside.
+  template <int dim>
+  VertexValues<dim>
+  barycentric_coordinates(const Simplex<dim> &x, const Point<dim> &p);
+
+  /// The dual centre o, `2 (x_i-x_0)·o = |x_i|^2 - w_i - |x_0|^2 + w_0`
+  /// (w in m^2); without weights the circumcentre.
+  template <int dim>
+  Point<dim>
+  weighted_circumcentre(const Simplex<dim> &x, const VertexValues<dim> &w);
+
+  /// Fraction of a simplex of dimension dim (1, 2 or 3) on which the P1
+  /// function with vertex values @p phi is negative. Exact.
+  template <int dim>
+  double
+  negative_fraction(const VertexValues<dim> &phi);
+
+  /// Volume (m^dim) and first moment (integral of x, m^(dim+1)) of a set.
+  template <int dim>
+  struct Moments
+  {
+    double         volume = 0;
+    Tensor<1, dim> first;
+  };
+
+  /// Moments of { phi < 0 and psi > 0 } inside the simplex, both P1: the
+  /// liquid outside a solid. Exact.
+  template <int dim>
+  Moments<dim>
+  liquid_moments(const Simplex<dim>      &x,
+                 const VertexValues<dim> &phi,
+                 const VertexValues<dim> &psi);
+
+  /// Area (m^(dim-1)) times unit normal of a facet given by its vertices, by
+  /// the right-hand rule (2D: the direction from vertex 0 to 1 turned clockwise,
+  /// so that a counter-clockwise boundary has outward normals).
+  template <int dim>
+  Tensor<1, dim>
+  area_vector(const std::array<Point<dim>, dim> &x);
+} // namespace treacle
+
+#endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_io_checkpoint_h
+#define treacle_io_checkpoint_h
+
+#include <treacle/fields/state.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <map>
+
+namespace treacle
+{
+  /// Saves a state in `checkpoint/` of the output directory, and makes it again
+  /// on any number of ranks. Written beside the older one and renamed: a kill at
+  /// any moment leaves one that can be loaded.
+  template <int dim>
+  class Checkpoint
+  {
+  public:
+    struct Parameters
+    {
+      unsigned int interval = 10; ///< frames; 0: never
+
+      void
+      add_parameters(ParameterHandler &prm);
+    };
+
+    /// What a run must know beside the state to go on.
+    struct Progress
+    {
+      unsigned int                  frame = 0; ///< the last one written
+      std::map<std::string, double> scalars;   ///< names without '='
+    };
+
+    Checkpoint(const MPI_Comm    &comm,
+               const Parameters  &parameters,
+               const std::string &output_directory);
+
+    bool
+    is_due(const unsigned int frame) const
+    {
+      return interval > 0 && frame > 0 && frame % interval == 0;
+    }
+
+    /// Collective, as is all below; throws a UserError on all ranks.
+    void
+    write(const State<dim> &state, const Progress &progress) const;
+
+    /// @p parameters and @p weight as for the Octree of a run from the start; the
+    /// box and the finest level must be those of the saved one.
+    State<dim>
+    load(const typename Octree<dim>::Parameters               &parameters,
+         const std::function<unsigned int(const Leaf<dim> &)> &weight,
+         Progress                                             &progress) const;
+
+    /// A new run starts: what an older one left must not be resumed.
+    void
+    remove() const;
+
+  private:
+    std::shared_ptr<const Octree<dim>>
+    load_octree(const std::string                                    &directory,
+                const typename Octree<dim>::Parameters               &parameters,
+                const std::function<unsigned int(const Leaf<dim> &)> &weight) const;
+
+    MPI_Comm     comm;
+    unsigned int interval;
+    std::string  path; ///< of the directory; with .new and .old while one replaces another
+  };
+} // namespace treacle
+
+#endif

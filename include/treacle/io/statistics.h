@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_io_statistics_h
+#define treacle_io_statistics_h
+
+#include <treacle/fields/liquid_domain.h>
+
+namespace treacle
+{
+  /// What a step reports beside the state it leaves.
+  struct StepInfo
+  {
+    double       dt                    = 0; ///< s
+    unsigned int viscosity_iterations = 0;
+    unsigned int pressure_iterations  = 0;
+    bool         rebuilt              = false; ///< the mesh is new
+    double       maximum_divergence   = 0;     ///< 1/s
+    double       wall_time            = 0;     ///< s
+  };
+
+  /// The table `statistics` in the output directory, one row a step. Rows are
+  /// appended, so a kill loses at most a part of the last, which is dropped
+  /// when the run is resumed.
+  template <int dim>
+  class Statistics
+  {
+  public:
+    /// One number of a row, under the name of its column.
+    struct Entry
+    {
+      std::string name;
+      double      value;
+      bool        is_count;
+    };
+
+    /// Starts a new table. The directory exists.
+    Statistics(const MPI_Comm &comm, const std::string &directory);
+
+    /// Continue the old table behind the row of this step. Throws a UserError
+    /// on all ranks if there is no such table. Collective.
+    void
+    resume(const unsigned int step);
+
+    /// Collective; throws a UserError on all ranks if the file cannot be written.
+    void
+    add_row(const State<dim> &state, const LiquidDomain<dim> &domain, const StepInfo &info);
+
+    /// Of the last row, on all ranks, by the name of its column.
+    double
+    last(const std::string &name) const;
+
+  private:
+    void
+    append();
+
+    MPI_Comm           comm;
+    std::string        path;
+    bool               has_file     = false;
+    bool               has_first    = false;
+    double             first_volume = 0; ///< of the first row (m^dim)
+    unsigned int       n_rebuilds   = 0;
+    std::vector<Entry> row;
+  };
+} // namespace treacle
+
+#endif

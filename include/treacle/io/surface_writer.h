@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_io_surface_writer_h
+#define treacle_io_surface_writer_h
+
+#include <treacle/fields/state.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+namespace treacle
+{
+  /// Writes the liquid's surface with its velocity, one file a frame. Which
+  /// ranks there are does not change a byte of it.
+  template <int dim>
+  class SurfaceWriter
+  {
+  public:
+    struct Parameters
+    {
+      std::string format = "ply";
+
+      void
+      add_parameters(ParameterHandler &prm);
+    };
+
+    explicit SurfaceWriter(const Parameters &parameters)
+      : format(parameters.format)
+    {}
+
+    /// `<directory>/frames/surface_00000.ply`, say. Throws a UserError on all
+    /// ranks where that fails. Collective.
+    void
+    write(const State<dim> &state, const std::string &directory, const unsigned int frame) const;
+
+  private:
+    std::string format;
+  };
+} // namespace treacle
+
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_mesh_tracer_h
+#define treacle_mesh_tracer_h
+
+#include <treacle/mesh/locator.h>
+
+namespace treacle
+{
+  /// A node field, P1 in a cell. With nodal gradients (1/m) it is evaluated as
+  /// `sum lambda_i (f_i + g_i·(x - x_i)/2)`, which is exact for quadratic fields.
+  template <int dim>
+  struct NodeField
+  {
+    const Vector          *value;
+    const NodeVector<dim> *gradient = nullptr;
+  };
+
+  /// Follows paths and evaluates node fields anywhere in the box: what lies on
+  /// another rank is asked of that rank. All members are collective, and all
+  /// vectors must have up-to-date ghosts.
+  template <int dim>
+  class Tracer
+  {
+  public:
+    explicit Tracer(const Mesh<dim> &mesh)
+      : mesh(mesh)
+      , locator(mesh)
+    {}
+
+    /// Values of n fields at each point: [point * n + field]. Points beyond the
+    /// box are moved to it.
+    std::vector<double>
+    evaluate(const std::vector<Point<dim>>     &x,
+             const std::vector<NodeField<dim>> &fields) const;
+
+    /// Where the paths through @p x lead in time @p dt (negative: where
+    /// they come from), with Ralston's Runge-Kutta method of order 3.
+    std::vector<Point<dim>>
+    trace(const std::vector<Point<dim>>  &x,
+          const NodeVector<dim>          &velocity,
+          const double                    dt) const;
+
+  private:
+    void
+    evaluate_here(const Location<dim>               &location,
+                  const Point<dim>                  &x,
+                  const std::vector<NodeField<dim>> &fields,
+                  double                            *result) const;
+
+    const Mesh<dim>   &mesh;
+    const Locator<dim> locator;
+  };
+} // namespace treacle
+
+#endif

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_simulator_h
+#define treacle_simulator_h
+
+#include <treacle/base/log.h>
+#include <treacle/base/timing.h>
+#include <treacle/io/checkpoint.h>
+#include <treacle/io/mesh_writer.h>
+#include <treacle/io/statistics.h>
+#include <treacle/io/surface_writer.h>
+#include <treacle/steps/forces.h>
+#include <treacle/steps/projection.h>
+#include <treacle/steps/reconstruction.h>
+#include <treacle/steps/surface_tracking.h>
+#include <treacle/steps/time_step.h>
+#include <treacle/steps/viscosity.h>
+
+namespace treacle
+{
+  /// The loop over time steps.
+  template <int dim>
+  class Simulator
+  {
+  public:
+    struct Parameters
+    {
+      unsigned int dimension        = dim;
+      std::string  output_directory = "results/treacle";
+
+      typename TimeStep<dim>::Parameters        time_step;
+      typename Scene<dim>::Parameters           scene;
+      typename Octree<dim>::Parameters          mesh;
+      typename SurfaceTracking<dim>::Parameters tracking;
+      typename Reconstruction<dim>::Parameters  reconstruction;
+      typename FaceFit<dim>::Parameters         face_fit;
+      typename Viscosity<dim>::Parameters       viscosity;
+      std::string                               coupling = "split with first projection";
+      typename Projection<dim>::Parameters      projection;
+      typename MeshWriter<dim>::Parameters      mesh_writer;
+      typename SurfaceWriter<dim>::Parameters   surface_writer;
+      typename Checkpoint<dim>::Parameters      checkpoint;
+
+      /// @p prm writes into this object when it parses; do not move it before.
+      void
+      add_parameters(ParameterHandler  &prm,
+                     const unsigned int n_liquids,
+                     const unsigned int n_solids);
+    };
+
+    /// @p parameters_as_used is the text for the file parameters.prm. Throws a
+    /// UserError, on all ranks alike, where the scene makes no sense.
+    Simulator(const MPI_Comm    &comm,
+              const Parameters  &parameters,
+              const std::string &parameters_as_used);
+
+    /// Run to the end time, from the start or from the last checkpoint.
+    void
+    run(const bool resume);
+
+  private:
+    void
+    start();
+
+    void
+    resume();
+
+    void
+    write_parameters() const;
+
+    void
+    check_liquids() const;
+
+    void
+    step(const double dt);
+
+    void
+    move_surface(const double dt);
+
+    void
+    output_frame();
+
+    void
+    report();
+
+    const MPI_Comm    comm;
+    const Parameters  prm;
+    const std::string parameters_as_used;
+    const Scene<dim>  scene;
+
+    const TimeStep<dim>        time_step;
+    const SurfaceTracking<dim> tracking;
+    const Forces<dim>          forces{};
+    const Viscosity<dim>       viscosity;
+    const Reconstruction<dim>  reconstruction;
+
+    const MeshWriter<dim>            mesh_writer;
+    const SurfaceWriter<dim>         surface_writer;
+    const Checkpoint<dim>            checkpoint;
+    Timing                           timing;
+    std::unique_ptr<Log>             log;
+    std::unique_ptr<Statistics<dim>> statistics;
+
+    std::unique_ptr<State<dim>>        state;
+    std::unique_ptr<LiquidDomain<dim>> domain;
+    unsigned int                       frame  = 0; ///< the last one written
+    double                             volume = 0; ///< that the liquid should have (m^dim)
+    double                             reach  = 0; ///< of velocity and distance from the surface (m)
+    StepInfo                           info;
+  };
+} // namespace treacle
+
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_steps_face_fit_h
+#define treacle_steps_face_fit_h
+
+#include <treacle/fields/mapping.h>
+#include <treacle/steps/node_system.h>
+
+namespace treacle
+{
+  /// The node velocity that fits the face velocity best: the minimiser of
+  /// `1/2 |P v - u|^2 in M_f + 1/2 v·S v`, where S is a strain energy of weight
+  /// 1e-2 h^2. Rigid motions are reproduced exactly on any graded mesh with any
+  /// surface.
+  template <int dim>
+  class FaceFit
+  {
+  public:
+    struct Parameters
+    {
+      LinearSolver::Parameters solver{"jacobi", 1e-8, 2000};
+
+      void
+      add_parameters(ParameterHandler &prm)
+      {
+        solver.add_parameters(prm, "Face fit");
+      }
+    };
+
+    FaceFit(const Parameters &parameters, const LiquidDomain<dim> &domain);
+
+    /// Set v at the active nodes from u, starting from what it holds. Returns
+    /// the number of iterations.
+    unsigned int
+    solve(const Vector &u, NodeVector<dim> &v) const;
+
+    /// Weight of S in each cell, to be added to any other strain coefficient.
+    const std::vector<double> &
+    regularization() const
+    {
+      return strain_coefficient;
+    }
+
+    const NodeSystem<dim>    system;
+    const LiquidDomain<dim> &domain;
+
+  private:
+    std::vector<double>                 strain_coefficient;
+    typename NodeSystem<dim>::Assembled assembled;
+    std::unique_ptr<LinearSolver>       solver;
+  };
+} // namespace treacle
+
+#endif

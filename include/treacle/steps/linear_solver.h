@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_steps_linear_solver_h
+#define treacle_steps_linear_solver_h
+
+#include <treacle/base/types.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <memory>
+#include <string>
+
+namespace treacle
+{
+  /// Smooth vectors that a matrix hardly sees (owned entries, vector by vector);
+  /// without any, constants of each of n_components.
+  struct NearNullSpace
+  {
+    unsigned int        n_components = 1;
+    unsigned int        n_vectors    = 0;
+    std::vector<double> vectors;
+  };
+
+  /// Conjugate gradients on a symmetric positive definite matrix.
+  class LinearSolver
+  {
+  public:
+    struct Parameters
+    {
+      std::string  preconditioner     = "amg";
+      double       relative_tolerance = 1e-6;
+      unsigned int maximum_iterations = 1000;
+
+      /// Subsection Linear solvers / @p name.
+      void
+      add_parameters(ParameterHandler &prm, const std::string &name);
+    };
+
+    /// Sets up the preconditioner; the matrix must outlive this object.
+    LinearSolver(const Parameters                     &parameters,
+                 const std::string                    &name,
+                 const TrilinosWrappers::SparseMatrix &matrix,
+                 const NearNullSpace                  &null_space = NearNullSpace());
+
+    /// Improve x until |b - A x| <= tolerance |b|. Returns the number of
+    /// iterations. Throws a UserError where it does not get there.
+    unsigned int
+    solve(Vector &x, const Vector &b) const;
+
+  private:
+    const Parameters                                  prm;
+    const std::string                                 name;
+    const TrilinosWrappers::SparseMatrix             &matrix;
+    NearNullSpace                                     null_space;
+    std::unique_ptr<TrilinosWrappers::PreconditionBase> preconditioner;
+  };
+} // namespace treacle
+
+#endif

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_steps_node_system_h
+#define treacle_steps_node_system_h
+
+#include <treacle/fields/liquid_domain.h>
+#include <treacle/steps/linear_solver.h>
+
+namespace treacle
+{
+  /// Linear systems for the velocity at the active nodes, dim rows a node.
+  /// Prescribed components are eliminated symmetrically: their rows hold the
+  /// diagonal alone. Each rank assembles the rows of its own nodes, for it
+  /// knows all the cells around them.
+  template <int dim>
+  class NodeSystem
+  {
+  public:
+    explicit NodeSystem(const LiquidDomain<dim> &domain);
+
+    /// Which mass a matrix holds: the lumped one of the nodes (M), or that of
+    /// the faces seen from the nodes (P^T M_f P).
+    enum class Mass
+    {
+      nodes,
+      faces
+    };
+
+    struct Assembled
+    {
+      std::unique_ptr<TrilinosWrappers::SparseMatrix> matrix;
+      /// What the prescribed values contribute to the right-hand side.
+      Vector shift;
+    };
+
+    /// `mass + sum_cells strain_coefficient(c) * (2 e:e)'`: the second term is
+    /// `-dt D` for the coefficient dt mu V.
+    Assembled
+    assemble(const Mass mass, const std::vector<double> &strain_coefficient) const;
+
+    /// The unknowns of v, prescribed components set.
+    Vector
+    unknowns(const NodeVector<dim> &v) const;
+
+    /// Write x to the active nodes of v and update its ghosts.
+    void
+    to_nodes(const Vector &x, NodeVector<dim> &v) const;
+
+    /// Right-hand side from the mass times velocity of free components, and the
+    /// shift; prescribed components receive diagonal times value.
+    Vector
+    right_hand_side(const std::vector<Tensor<1, dim>> &momentum, const Assembled &assembled) const;
+
+    /// P^T M_f u at owned nodes (kg m/s).
+    std::vector<Tensor<1, dim>>
+    face_momentum(const Vector &u) const;
+
+    /// Rigid motions of the nodes, zero at prescribed components.
+    NearNullSpace
+    rigid_motions() const;
+
+    const LiquidDomain<dim> &domain;
+
+  private:
+    void
+    assemble_node(const Mass                   mass,
+                  const std::vector<double>   &strain_coefficient,
+                  const LocalIndex             node,
+                  std::vector<LocalIndex>     &columns,
+                  std::vector<Tensor<2, dim>> &blocks) const;
+
+    std::vector<LocalIndex>         owned_nodes; ///< active and owned
+    std::vector<GlobalIndex>        number;      ///< of each known node, or invalid_dof_index
+    IndexSet                        rows;
+    mutable std::vector<LocalIndex> slot; ///< scratch: node -> place in columns
+  };
+} // namespace treacle
+
+#endif

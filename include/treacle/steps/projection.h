@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_steps_projection_h
+#define treacle_steps_projection_h
+
+#include <treacle/fields/liquid_domain.h>
+#include <treacle/steps/linear_solver.h>
+
+namespace treacle
+{
+  /// Pressure projection with embedded solids and a ghost fluid surface (Batty,
+  /// Xenos & Houston 2010): the face velocity of least kinetic energy
+  /// `1/2 |u - u*|^2 in M_f` whose divergence vanishes in every pressure cell.
+  /// One object serves all projections on one surface.
+  template <int dim>
+  class Projection
+  {
+  public:
+    struct Parameters
+    {
+      double                   minimum_theta = 0.01;
+      LinearSolver::Parameters solver{"amg", 1e-8, 1000};
+
+      void
+      add_parameters(ParameterHandler &prm);
+    };
+
+    Projection(const Parameters &parameters, const LiquidDomain<dim> &domain);
+
+    /// Is a projection the first of its step, or does it correct an earlier one?
+    enum class Pass
+    {
+      first,
+      correction
+    };
+
+    /// Make state.u free of divergence; sets state.pressure, or adds to it in a
+    /// correction. Returns the number of iterations.
+    unsigned int
+    advance(State<dim> &state, const double dt, const Pass pass) const;
+
+    /// Largest |divergence| of a pressure cell over all ranks (1/s).
+    double
+    maximum_divergence(const State<dim> &state) const;
+
+  private:
+    /// Volume flux out of a cell (m^dim/s).
+    double
+    outflow(const LocalIndex cell, const Vector &u) const;
+
+    void
+    find_closed_pockets();
+
+    void
+    assemble();
+
+    const Parameters         prm;
+    const LiquidDomain<dim> &domain;
+
+    std::vector<LocalIndex>  owned_cells; ///< pressure cells
+    std::vector<GlobalIndex> number;      ///< of each known cell, or invalid_dof_index
+    IndexSet                 rows;
+    /// Pockets without a free surface: the pressure cells of this rank in each,
+    /// and how many there are on all ranks. One cell of each is pinned.
+    struct Pocket
+    {
+      std::vector<unsigned int> rows;
+      GlobalIndex               size = 0;
+    };
+    std::vector<Pocket>            pockets;
+    std::vector<unsigned int>      pinned; ///< rows of this rank
+    std::unique_ptr<TrilinosWrappers::SparseMatrix> matrix;
+    std::unique_ptr<LinearSolver>                   solver;
+  };
+} // namespace treacle
+
+#endif

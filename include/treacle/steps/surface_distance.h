@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_steps_surface_distance_h
+#define treacle_steps_surface_distance_h
+
+#include <treacle/fields/surface.h>
+
+#include <deal.II/numerics/rtree.h>
+
+namespace treacle
+{
+  /// Nearest points on the surface phi = 0 of all ranks, within a given reach.
+  template <int dim>
+  class SurfaceDistance
+  {
+  public:
+    /// Collective: each rank receives the facets within @p reach (m) of its leaves.
+    SurfaceDistance(const Mesh<dim> &mesh, const Vector &phi, const double reach);
+
+    struct Nearest
+    {
+      Point<dim> point;
+      double     distance; ///< m, not signed; infinite if beyond the reach
+    };
+
+    Nearest
+    nearest(const Point<dim> &x) const;
+
+    const double reach;
+
+    /// Area of the surface over all ranks (m^(dim-1)).
+    double
+    total_area() const
+    {
+      return area;
+    }
+
+  private:
+    using Facet = std::array<Point<dim>, dim>;
+
+    std::vector<Facet>                             facets;
+    RTree<std::pair<BoundingBox<dim>, unsigned int>> tree;
+    double                                         area = 0;
+  };
+} // namespace treacle
+
+#endif

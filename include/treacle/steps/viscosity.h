@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_steps_viscosity_h
+#define treacle_steps_viscosity_h
+
+#include <treacle/steps/face_fit.h>
+
+namespace treacle
+{
+  /// The implicit viscous step, a nodal finite volume method (Batty & Houston
+  /// 2011, section 4): `(M - dt D) v = M v_old` at the nodes, carried between
+  /// face and node velocity by a mapping.
+  template <int dim>
+  class Viscosity
+  {
+  public:
+    struct Parameters
+    {
+      std::string              mapping           = "face fitted FLIP";
+      std::string              element_weighting = "liquid fraction";
+      LinearSolver::Parameters solver;
+
+      void
+      add_parameters(ParameterHandler &prm);
+    };
+
+    explicit Viscosity(const Parameters &parameters)
+      : prm(parameters)
+    {}
+
+    /// Changes state.u, and state.v of the active nodes. Returns the number of
+    /// iterations of the implicit solve. The fit belongs to the same surface.
+    unsigned int
+    advance(State<dim> &state, const FaceFit<dim> &fit, const double dt) const;
+
+  private:
+    unsigned int
+    advance_face_fitted(State<dim> &state, const FaceFit<dim> &fit, const double dt) const;
+
+    unsigned int
+    advance_nodes(State<dim> &state, const FaceFit<dim> &fit, const double dt) const;
+
+    /// dt mu V of each cell.
+    std::vector<double>
+    strain_coefficient(const LiquidDomain<dim> &domain, const double dt) const;
+
+    const Parameters prm;
+  };
+} // namespace treacle
+
+#endif

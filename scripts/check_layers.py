@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) the Treacle authors
+
+"""Check that the house has one direction: a file includes only what stands in
+its own layer or above it in LAYERS, and modules (x.h with x.cc) form no cycle.
+
+usage: check_layers.py [ROOT]    prints the offending lines, exit code 1 if any
+"""
+
+import pathlib
+import re
+import sys
+
+LAYERS = ["base", "geometry", "mesh", "fields", "steps", "io", "simulator", "main"]
+INCLUDE = re.compile(r'\s*#\s*include\s*[<"]((?:treacle/|\.)[^>"]*)[>"]')
+
+
+def layer(module):
+    """The index of the layer of a module like mesh/octree or main."""
+    name = module.split("/")[0]
+    return LAYERS.index(name) if name in LAYERS else None
+
+
+def includes(root):
+    """Yield (place, line, including module, included module)."""
+    for folder in (root / "include" / "treacle", root / "source"):
+        for path in sorted(folder.rglob("*")):
+            if path.suffix not in (".h", ".cc") or path.name == "pch.h":
+                continue
+            module = path.relative_to(folder).with_suffix("").as_posix()
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                match = INCLUDE.match(line)
+                if match:
+                    target = match[1].removeprefix("treacle/").removesuffix(".h")
+                    place = f"{path.relative_to(root)}:{number}"
+                    yield place, line.strip(), module, target
+
+
+def find_cycle(graph):
+    """A list of modules that include each other in a ring, or None."""
+    done, path = set(), []
+
+    def visit(module):
+        if module in path:
+            return path[path.index(module):] + [module]
+        if module in done:
+            return None
+        path.append(module)
+        for target in sorted(graph.get(module, ())):
+            cycle = visit(target)
+            if cycle:
+                return cycle
+        path.pop()
+        done.add(module)
+        return None
+
+    return next(filter(None, map(visit, sorted(graph))), None)
+
+
+def main():
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent)
+    problems, graph = [], {}
+    for place, line, module, target in includes(root):
+        if layer(module) is None:
+            problems.append(f"{place}: \"{module}\" is in no layer ({', '.join(LAYERS)})")
+        elif layer(target) is None:
+            problems.append(f"{place}: {line}  (in no layer)")
+        elif layer(target) > layer(module):
+            problems.append(f"{place}: {line}  ({LAYERS[layer(module)]} must not know "
+                            f"{LAYERS[layer(target)]})")
+        if target != module:
+            graph.setdefault(module, set()).add(target)
+
+    cycle = find_cycle(graph)
+    if cycle:
+        problems.append("cycle: " + " -> ".join(cycle))
+    print("\n".join(problems) if problems else "layers: in order")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) the Treacle authors
+"""Pictures of two-dimensional runs: the liquid's outline, filled, or the mesh."""
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.patches import Circle, PathPatch, Rectangle
+from matplotlib.path import Path
+
+from outline import liquid_loops
+
+LIQUID, EDGE, SOLID, FRAME = "#f0b43c", "#8a5200", "#9aa0a6", "#3c4043"
+LEVEL_SET = matplotlib.colors.LinearSegmentedColormap.from_list(
+    "level set", ["#b86a00", "#f0b43c", "#fbe7b8", "#e9eff5", "#b9cadb", "#7f9bb6"])
+
+
+def filled(loops, **style):
+    """Closed polygons as one patch, holes left open."""
+    return PathPatch(Path.make_compound_path(
+        *(Path(numpy.vstack([loop, loop[:1]]), closed=True) for loop in loops)), **style)
+
+
+def draw_box(axes, run):
+    axes.add_patch(Rectangle(run.lower, *(run.upper - run.lower), fill=False,
+                             edgecolor=FRAME, linewidth=1.5, zorder=5))
+    for shape, a, b, inside_out in run.solids():
+        patch = Circle(a, b[0]) if shape == "sphere" else Rectangle(a, *(b - a))
+        patch.set(facecolor="none" if inside_out else SOLID, edgecolor=FRAME, zorder=4)
+        axes.add_patch(patch)
+    margin = 0.02 * (run.upper - run.lower).max()
+    axes.set(aspect="equal", xlim=(run.lower[0] - margin, run.upper[0] + margin),
+             ylim=(run.lower[1] - margin, run.upper[1] + margin))
+    axes.tick_params(colors=FRAME)
+    for side in axes.spines.values():
+        side.set_visible(False)
+
+
+class Pictures2D:
+    def __init__(self, run, frames, options):
+        self.run, self.options = run, options
+        self.fastest = 0.0
+        if options.colour == "speed":
+            self.fastest = max((run.surface(k).speed.max(initial=0) for k in frames), default=0)
+
+    def draw(self, frame, path):
+        run, options = self.run, self.options
+        width, height = options.size
+        figure, axes = plt.subplots(figsize=(width / 100, height / 100), dpi=100,
+                                    layout="constrained")
+        surface = run.surface(frame)
+        points = surface.points[:, :2]
+        if options.mesh:
+            self._mesh(figure, axes, frame)
+        else:
+            loops = liquid_loops(points, surface.facets, run.lower, run.upper)
+            if loops:
+                axes.add_patch(filled(loops, facecolor=LIQUID, edgecolor="none"))
+        lines = LineCollection(points[surface.facets], linewidths=1.6, capstyle="round", zorder=3)
+        if options.colour == "speed":
+            lines.set(array=surface.speed[surface.facets].mean(axis=1), cmap="viridis",
+                      clim=(0, self.fastest or 1), linewidths=3)
+            figure.colorbar(lines, ax=axes, label="speed (m/s)", shrink=0.8)
+        else:
+            lines.set_color(EDGE)
+        axes.add_collection(lines)
+        draw_box(axes, run)
+        axes.set_title(f"t = {run.time(frame):.3f} s", color=FRAME)
+        axes.set(xlabel="x (m)", ylabel="y (m)")
+        figure.savefig(path)
+        plt.close(figure)
+
+    def _mesh(self, figure, axes, frame):
+        from mesh_reader import read_mesh
+        points, cells, phi = read_mesh(self.run.mesh(frame))
+        limit = 0.1 * (self.run.upper - self.run.lower).min()
+        polygons = PolyCollection(points[cells][:, :, :2], array=phi[cells].mean(axis=1),
+                                  cmap=LEVEL_SET, clim=(-limit, limit),
+                                  edgecolors="#20252b", linewidths=min(0.5, 40 / len(cells)**0.5))
+        axes.add_collection(polygons)
+        figure.colorbar(polygons, ax=axes, label="level set (m)", shrink=0.8, extend="both")

@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) the Treacle authors
+"""Pictures of three-dimensional runs: the liquid's surface, or a cut through the mesh."""
+
+import numpy
+import vtk
+from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+
+from outline import liquid_loops, merge
+from studio import SAMPLES, SOLID, Studio
+
+HONEY_DEEP, HONEY_THIN = numpy.array([0.66, 0.24, 0.0]), numpy.array([1.0, 0.60, 0.10])
+LEVEL_SET = [(0.72, 0.42, 0.0), (0.94, 0.71, 0.24), (0.98, 0.91, 0.72),
+             (0.91, 0.94, 0.96), (0.73, 0.79, 0.86), (0.50, 0.61, 0.71)]
+
+
+class Pictures3D:
+    """The studio is built once; draw() exchanges the liquid or the mesh."""
+
+    def __init__(self, run, frames, options):
+        self.run, self.mesh = run, options.mesh
+        self.studio = Studio(run.lower, run.upper, options.view, options.size)
+        self.actors, self.colours = [], None
+        if options.mesh:
+            limit = 0.1 * (run.upper - run.lower).min()
+            self.colours = colour_table(LEVEL_SET, -limit, limit)
+            self.studio.colour_bar(self.colours, "level set (m)")
+        elif options.colour == "speed":
+            fastest = max(run.surface(k).speed.max(initial=0) for k in frames)
+            self.colours = colour_table(viridis(), 0, fastest or 1)
+            self.studio.colour_bar(self.colours, "speed (m/s)")
+        if self.colours is not None:
+            self.studio.light(0.75, (0, 0, 1))
+        if not options.mesh:
+            self._solids()
+        lower, upper = run.lower, run.upper
+        if options.focus == "liquid":
+            clouds = [run.surface(k).points for k in frames]
+            cloud = numpy.concatenate([c for c in clouds if len(c)] or [[lower, upper]])
+            lower, upper = cloud.min(axis=0), cloud.max(axis=0)
+        self.studio.look_at(lower, upper, 1.0 if self.colours is None else 0.82)
+
+    def draw(self, frame, path):
+        while self.actors:
+            self.studio.remove(self.actors.pop())
+        surface = self.run.surface(frame)
+        if self.mesh:
+            self._mesh(frame)
+            surface.facets = surface.facets[:0]
+        elif len(surface.facets):
+            self._liquid(surface)
+        self.studio.paint_floor(surface.points, surface.facets)
+        self.studio.title.SetInput(f"t = {self.run.time(frame):.3f} s")
+        self.studio.save(path)
+
+    def _liquid(self, surface):
+        lower, upper = self.run.lower, self.run.upper
+        facets, _ = merge(surface.points, surface.facets, 1e-7 * (upper - lower).max())
+        parts = [with_normals(poly_data(surface.points, facets, speed=surface.speed))]
+        parts += [polygons(loops) for loops in wall_caps(surface.points, facets, lower, upper)]
+        for part in parts:
+            actor = self.studio.add(part)
+            material, mapper = actor.GetProperty(), actor.GetMapper()
+            if self.colours is None:
+                add_point_data(part, "honey", self._honey(part))
+                mapper.SetColorModeToDirectScalars()
+                material.SetInterpolationToPBR()
+                material.SetRoughness(0.16)
+            else:
+                mapper.SetLookupTable(self.colours)
+                material.SetColor(*SOLID)  # of the caps, which have no speed
+                material.SetAmbient(0.25)
+                material.SetSpecular(0.15)
+                material.SetSpecularPower(30)
+            mapper.SetScalarModeToUsePointFieldData()
+            mapper.SelectColorArray("honey" if self.colours is None else "speed")
+            self.actors.append(actor)
+
+    def _honey(self, part):
+        """Colours that look translucent: lighter where the view grazes the surface."""
+        normals = vtk_to_numpy(part.GetPointData().GetNormals())
+        graze = 1 - abs(normals @ self.studio.toward_camera)[:, None]
+        colour = HONEY_DEEP + graze**1.5 * (HONEY_THIN - HONEY_DEEP)
+        return (255 * colour).clip(0, 255).astype(numpy.uint8)
+
+    def _mesh(self, frame):
+        """The cells behind the plane through the middle of the box that faces the camera."""
+        from mesh_reader import read_mesh
+        points, cells, phi = read_mesh(self.run.mesh(frame))
+        toward = self.studio.toward_camera
+        axis = int(numpy.argmax(abs(toward[:2])))
+        middle = 0.5 * (self.run.lower + self.run.upper)[axis]
+        centre = points[cells].mean(axis=1)[:, axis]
+        cells = cells[(centre - middle) * toward[axis] < 0]
+        faces, cell = boundary_faces(points, cells)
+        corners = points[faces].reshape(-1, 3)
+        actor = self.studio.add(poly_data(corners, numpy.arange(len(corners)).reshape(-1, 3),
+                                          phi=numpy.repeat(phi[cells].mean(axis=1)[cell], 3)))
+        mapper, material = actor.GetMapper(), actor.GetProperty()
+        mapper.SetScalarModeToUsePointFieldData()
+        mapper.SelectColorArray("phi")
+        mapper.SetLookupTable(self.colours)
+        material.SetInterpolationToFlat()
+        material.SetAmbient(0.25)
+        material.SetDiffuse(0.8)
+        material.EdgeVisibilityOn()
+        material.SetEdgeColor(0.13, 0.15, 0.17)
+        material.SetLineWidth(0.7 * SAMPLES)
+        self.actors.append(actor)
+
+    def _solids(self):
+        for shape, a, b, inside_out in self.run.solids():
+            if shape == "sphere":
+                source = vtk.vtkSphereSource()
+                source.SetCenter(*a)
+                source.SetRadius(b[0])
+                source.SetThetaResolution(96)
+                source.SetPhiResolution(96)
+            else:
+                source = vtk.vtkCubeSource()
+                source.SetBounds(*numpy.stack([a, b], axis=1).ravel())
+            material = self.studio.add(source).GetProperty()
+            material.SetColor(*SOLID)
+            material.SetInterpolationToPBR()
+            material.SetRoughness(0.6)
+            if inside_out:
+                material.SetOpacity(0.12)
+
+
+def wall_caps(points, facets, lower, upper):
+    """Where the liquid touches a wall its surface is open. Yields for each such wall
+    the polygons (n x 3) that close it."""
+    edges = numpy.concatenate([facets[:, [0, 1]], facets[:, [1, 2]], facets[:, [2, 0]]])
+    n = len(points)
+    edges = edges[~numpy.isin(edges @ [n, 1], edges @ [1, n])]  # no triangle beyond
+    tolerance = 1e-5 * (upper - lower).max()
+    for axis in range(3):
+        for wall, order in (lower[axis], (2, 1)), (upper[axis], (1, 2)):
+            on_wall = (abs(points[edges, axis] - wall) < tolerance).all(axis=1)
+            # seen from outside, the cap's edges run against the surface's
+            plane = [(axis + k) % 3 for k in order]
+            caps = []
+            for loop in liquid_loops(points[:, plane], edges[on_wall][:, ::-1],
+                                     lower[plane], upper[plane]):
+                caps.append(numpy.full((len(loop), 3), wall))
+                caps[-1][:, plane] = loop
+            if caps:
+                yield caps
+
+
+def boundary_faces(points, cells):
+    """Faces (n x 3 points) that belong to one cell only, and that cell. The points may
+    be repeated from cell to cell."""
+    _, label = numpy.unique(points.astype("f4"), axis=0, return_inverse=True)
+    faces = numpy.concatenate([numpy.delete(cells, k, axis=1) for k in range(4)])
+    _, first, count = numpy.unique(numpy.sort(label[faces], axis=1), axis=0,
+                                   return_index=True, return_counts=True)
+    alone = first[count == 1]
+    return faces[alone], alone % len(cells)
+
+
+def poly_data(points, facets, **point_data):
+    data, vertices, cells = vtk.vtkPolyData(), vtk.vtkPoints(), vtk.vtkCellArray()
+    vertices.SetData(numpy_to_vtk(numpy.ascontiguousarray(points, dtype=float), deep=True))
+    offsets = numpy.arange(0, facets.size + 1, 3)
+    cells.SetData(numpy_to_vtkIdTypeArray(offsets, deep=True),
+                  numpy_to_vtkIdTypeArray(facets.astype(numpy.int64).ravel(), deep=True))
+    data.SetPoints(vertices)
+    data.SetPolys(cells)
+    for name, values in point_data.items():
+        add_point_data(data, name, values)
+    return data
+
+
+def add_point_data(data, name, values):
+    array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
+    array.SetName(name)
+    data.GetPointData().AddArray(array)
+
+
+def polygons(loops):
+    """Triangles of the polygons of one plane, holes left open."""
+    data, vertices, lines = vtk.vtkPolyData(), vtk.vtkPoints(), vtk.vtkCellArray()
+    for loop in loops:
+        ids = [vertices.InsertNextPoint(*x) for x in loop]
+        lines.InsertNextCell(len(ids) + 1)
+        for i in ids + ids[:1]:
+            lines.InsertCellPoint(i)
+    data.SetPoints(vertices)
+    data.SetLines(lines)
+    triangles = vtk.vtkContourTriangulator()
+    triangles.SetInputData(data)
+    triangles.Update()
+    return with_normals(triangles.GetOutput())
+
+
+def with_normals(data):
+    normals = vtk.vtkPolyDataNormals()
+    normals.SetInputData(data)
+    normals.SplittingOff()
+    normals.ConsistencyOff()
+    normals.Update()
+    return normals.GetOutput()
+
+
+def colour_table(colours, low, high):
+    table = vtk.vtkColorTransferFunction()
+    for x, colour in zip(numpy.linspace(low, high, len(colours)), colours):
+        table.AddRGBPoint(x, *colour)
+    return table
+
+
+def viridis():
+    from matplotlib import colormaps
+    return [colormaps["viridis"](x)[:3] for x in numpy.linspace(0, 1, 17)]

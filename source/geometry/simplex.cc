@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/geometry/simplex.h>
+
+#include <cmath>
+
+namespace treacle
+{
+  namespace
+  {
+    /// A simplex that carries the second function while the first one cuts it.
+    template <int dim>
+    struct Piece
+    {
+      Simplex<dim>      x;
+      VertexValues<dim> psi;
+    };
+
+    template <int dim>
+    struct Pieces
+    {
+      std::array<Piece<dim>, 3> piece;
+      unsigned int              n = 0;
+    };
+
+    /// Vertices with negative values first; returns how many there are.
+    template <int dim>
+    unsigned int
+    negative_first(const VertexValues<dim> &phi, std::array<unsigned int, dim + 1> &order)
+    {
+      unsigned int n_negative = 0;
+      for (unsigned int i = 0; i <= dim; ++i)
+        n_negative += phi[i] < 0;
+      unsigned int negative = 0, positive = n_negative;
+      for (unsigned int i = 0; i <= dim; ++i)
+        order[phi[i] < 0 ? negative++ : positive++] = i;
+      return n_negative;
+    }
+
+    /// Which vertex of the whole, or which cut on the edge between two of them
+    /// (i negative, j not), is a vertex of a piece.
+    struct Corner
+    {
+      unsigned char i, j;
+    };
+
+    template <int dim>
+    using Corners = std::array<std::array<Corner, dim + 1>, 3>;
+
+    /// The negative part as simplices (entry k: k+1 negative vertices), for
+    /// vertices in the order of negative_first(). In 3D two or three negative
+    /// vertices leave a prism.
+    template <int dim>
+    constexpr std::array<Corners<dim>, dim> negative_pieces;
+
+    template <>
+    constexpr std::array<Corners<2>, 2> negative_pieces<2> = {
+      {{{{{{0, 0}, {0, 1}, {0, 2}}}}},
+       {{{{{0, 0}, {1, 1}, {1, 2}}}, {{{0, 0}, {1, 2}, {0, 2}}}}}}};
+
+    template <>
+    constexpr std::array<Corners<3>, 3> negative_pieces<3> = {
+      {{{{{{0, 0}, {0, 1}, {0, 2}, {0, 3}}}}},
+       {{{{{0, 0}, {0, 2}, {0, 3}, {1, 3}}},
+         {{{0, 0}, {0, 2}, {1, 2}, {1, 3}}},
+         {{{0, 0}, {1, 1}, {1, 2}, {1, 3}}}}},
+       {{{{{0, 0}, {1, 1}, {2, 2}, {2, 3}}},
+         {{{0, 0}, {1, 1}, {1, 3}, {2, 3}}},
+         {{{0, 0}, {0, 3}, {1, 3}, {2, 3}}}}}}};
+
+    /// The part of a piece where phi < 0, as at most three pieces.
+    template <int dim>
+    Pieces<dim>
+    clip(const Piece<dim> &whole, const VertexValues<dim> &phi)
+    {
+      std::array<unsigned int, dim + 1> order;
+      const unsigned int                n_negative = negative_first<dim>(phi, order);
+
+      Pieces<dim> result;
+      if (n_negative == 0)
+        return result;
+      if (n_negative == dim + 1)
+        {
+          result.piece[0] = whole;
+          result.n        = 1;
+          return result;
+        }
+
+      const Corners<dim> &corners = negative_pieces<dim>[n_negative - 1];
+      result.n                    = (n_negative == 1 ? 1 : dim);
+      for (unsigned int k = 0; k < result.n; ++k)
+        for (unsigned int v = 0; v <= dim; ++v)
+          {
+            const unsigned int i = order[corners[k][v].i];
+            const unsigned int j = order[corners[k][v].j];
+            const double       t = (i == j ? 0. : phi[i] / (phi[i] - phi[j]));
+
+            result.piece[k].x[v]   = whole.x[i] + t * (whole.x[j] - whole.x[i]);
+            result.piece[k].psi[v] = (1 - t) * whole.psi[i] + t * whole.psi[j];
+          }
+      return result;
+    }
+
+    template <int dim>
+    void
+    add(const Simplex<dim> &x, Moments<dim> &moments)
+    {
+      const double volume = std::abs(signed_volume<dim>(x));
+      moments.volume += volume;
+      for (const Point<dim> &vertex : x)
+        moments.first += volume / (dim + 1) * vertex;
+    }
+
+    Tensor<1, 2>
+    clockwise(const Tensor<1, 2> &v)
+    {
+      Tensor<1, 2> turned;
+      turned[0] = v[1];
+      turned[1] = -v[0];
+      return turned;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  double
+  signed_volume(const Simplex<dim> &x)
+  {
+    if constexpr (dim == 2)
+      return (x[1] - x[0]) * clockwise(x[2] - x[0]) / 2;
+    else
+      return (x[1] - x[0]) * cross_product_3d(x[2] - x[0], x[3] - x[0]) / 6;
+  }
+
+
+
+  template <int dim>
+  std::array<Tensor<1, dim>, dim + 1>
+  basis_gradients(const Simplex<dim> &x)
+  {
+    std::array<Tensor<1, dim>, dim + 1> g;
+
+    const Tensor<1, dim> a = x[1] - x[0], b = x[2] - x[0];
+    if constexpr (dim == 2)
+      {
+        g[1] = clockwise(b);
+        g[2] = -clockwise(a);
+      }
+    else
+      {
+        const Tensor<1, dim> c = x[3] - x[0];
+
+        g[1] = cross_product_3d(b, c);
+        g[2] = cross_product_3d(c, a);
+        g[3] = cross_product_3d(a, b);
+      }
+
+    const double scale = 1 / (a * g[1]);
+    for (unsigned int i = 1; i <= dim; ++i)
+      {
+        g[i] *= scale;
+        g[0] -= g[i];
+      }
+    return g;
+  }
+
+
+
+  template <int dim>
+  VertexValues<dim>
+  barycentric_coordinates(const Simplex<dim> &x, const Point<dim> &p)
+  {
+    const auto        g = basis_gradients<dim>(x);
+    VertexValues<dim> lambda;
+    lambda[0] = 1;
+    for (unsigned int i = 1; i <= dim; ++i)
+      {
+        lambda[i] = g[i] * (p - x[0]);
+        lambda[0] -= lambda[i];
+      }
+    return lambda;
+  }
+
+
+
+  // The gradients are the basis dual to the edges x_i - x_0, so they invert
+  // the linear system of the dual centre.
+  template <int dim>
+  Point<dim>
+  weighted_circumcentre(const Simplex<dim> &x, const VertexValues<dim> &w)
+  {
+    const auto g = basis_gradients<dim>(x);
+    Point<dim> o = x[0];
+    for (unsigned int i = 1; i <= dim; ++i)
+      o += 0.5 * ((x[i] - x[0]).norm_square() - w[i] + w[0]) * g[i];
+    return o;
+  }
+
+
+
+  // A corner that alone has its sign keeps the product of its edges' parts.
+  // Two against two in 3D is a prism: the sum of its three tetrahedra, all
+  // terms positive, so nothing cancels.
+  template <int dim>
+  double
+  negative_fraction(const VertexValues<dim> &phi)
+  {
+    std::array<unsigned int, dim + 1> order;
+    const unsigned int                n_negative = negative_first<dim>(phi, order);
+    if (n_negative == 0)
+      return 0;
+    if (n_negative == dim + 1)
+      return 1;
+
+    const auto part = [&](const unsigned int i, const unsigned int j) {
+      return phi[order[i]] / (phi[order[i]] - phi[order[j]]);
+    };
+    if (n_negative == 1 || n_negative == dim)
+      {
+        const unsigned int alone   = (n_negative == 1 ? 0 : dim);
+        double             product = 1;
+        for (unsigned int i = 0; i <= dim; ++i)
+          if (i != alone)
+            product *= part(alone, i);
+        return alone == 0 ? product : 1 - product;
+      }
+    const double p = part(0, 2), q = part(0, dim);
+    const double r = part(1, 2), s = part(1, dim);
+    return p * q + p * s * (1 - q) + (1 - p) * r * s;
+  }
+
+
+
+  template <int dim>
+  Moments<dim>
+  liquid_moments(const Simplex<dim>      &x,
+                 const VertexValues<dim> &phi,
+                 const VertexValues<dim> &psi)
+  {
+    unsigned int n_liquid = 0, n_open = 0;
+    for (unsigned int i = 0; i <= dim; ++i)
+      {
+        n_liquid += phi[i] < 0;
+        n_open += psi[i] > 0;
+      }
+
+    Moments<dim> moments;
+    if (n_liquid == 0 || n_open == 0)
+      return moments;
+    if (n_liquid == dim + 1 && n_open == dim + 1)
+      {
+        add<dim>(x, moments);
+        return moments;
+      }
+
+    VertexValues<dim> solid;
+    for (unsigned int i = 0; i <= dim; ++i)
+      solid[i] = -psi[i];
+    const Pieces<dim> liquid = clip<dim>({x, solid}, phi);
+    for (unsigned int k = 0; k < liquid.n; ++k)
+      {
+        const Pieces<dim> open = clip<dim>(liquid.piece[k], liquid.piece[k].psi);
+        for (unsigned int l = 0; l < open.n; ++l)
+          add<dim>(open.piece[l].x, moments);
+      }
+    return moments;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  area_vector(const std::array<Point<dim>, dim> &x)
+  {
+    if constexpr (dim == 2)
+      return clockwise(x[1] - x[0]);
+    else
+      return 0.5 * cross_product_3d(x[1] - x[0], x[2] - x[0]);
+  }
+
+
+
+  template double
+  negative_fraction<1>(const VertexValues<1> &);
+
+#define INSTANTIATE(dim)                                                                 \
+  template double                              signed_volume<dim>(const Simplex<dim> &); \
+  template std::array<Tensor<1, dim>, dim + 1> basis_gradients<dim>(                     \
+    const Simplex<dim> &);                                                               \
+  template VertexValues<dim> barycentric_coordinates<dim>(const Simplex<dim> &,          \
+                                                          const Point<dim> &);           \
+  template Point<dim>        weighted_circumcentre<dim>(const Simplex<dim> &,            \
+                                                 const VertexValues<dim> &);      \
+  template double            negative_fraction<dim>(const VertexValues<dim> &);          \
+  template Moments<dim>      liquid_moments<dim>(const Simplex<dim> &,                   \
+                                            const VertexValues<dim> &,              \
+                                            const VertexValues<dim> &);             \
+  template Tensor<1, dim>    area_vector<dim>(const std::array<Point<dim>, dim> &);
+
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace treacle

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exchange.h>
+#include <treacle/base/files.h>
+#include <treacle/io/checkpoint.h>
+#include <treacle/io/table_file.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+
+namespace treacle
+{
+  namespace fs = std::filesystem;
+
+  template <int dim>
+  void
+  Checkpoint<dim>::Parameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Checkpoint");
+    prm.add_parameter("Interval",
+                      interval,
+                      "Frames from one checkpoint to the next; 0: never.",
+                      Patterns::Integer(0));
+    prm.leave_subsection();
+  }
+
+  template <int dim>
+  Checkpoint<dim>::Checkpoint(const MPI_Comm    &comm,
+                              const Parameters  &parameters,
+                              const std::string &output_directory)
+    : comm(comm)
+    , interval(parameters.interval)
+    , path(output_directory + "/checkpoint")
+  {}
+
+  namespace
+  {
+    /// The file that is written last: without it a checkpoint is not complete.
+    std::string
+    info_file(const std::string &directory)
+    {
+      return directory + "/info";
+    }
+
+    /// Not complete any more at once, then gone.
+    void
+    discard(const std::string &directory)
+    {
+      std::error_code ignored;
+      fs::remove(info_file(directory), ignored);
+      fs::remove_all(directory, ignored);
+    }
+
+    /// What the info file says, in lines "name = value".
+    class Info
+    {
+    public:
+      Info(const std::string &text, const std::string &path)
+        : path(path)
+      {
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);)
+          if (const auto equals = line.find(" = "); equals != std::string::npos)
+            values[line.substr(0, equals)] = line.substr(equals + 3);
+      }
+
+      std::string
+      get(const std::string &name) const
+      {
+        const auto it = values.find(name);
+        require(it != values.end(), "The file \"" + path + "\" does not say \"" + name + "\".");
+        return it->second;
+      }
+
+      /// All numbers under names that begin with @p prefix, without it.
+      std::map<std::string, double>
+      scalars(const std::string &prefix) const
+      {
+        std::map<std::string, double> result;
+        for (const auto &[name, value] : values)
+          if (name.compare(0, prefix.size(), prefix) == 0)
+            result[name.substr(prefix.size())] = std::strtod(value.c_str(), nullptr);
+        return result;
+      }
+
+      void
+      require_same(const std::string &name, const std::string &parameter, const std::string &value) const
+      {
+        require(get(name) == value,
+                "The run cannot be resumed: the checkpoint has " + parameter + " = " + get(name) +
+                  ", the parameter file has " + value + ". Restore it, or start a new run.");
+      }
+
+    private:
+      std::string                        path;
+      std::map<std::string, std::string> values;
+    };
+
+    const std::string scalar_prefix = "Scalar ";
+
+    template <int dim>
+    std::string
+    to_text(const Point<dim> &x)
+    {
+      std::ostringstream out;
+      out << std::setprecision(17) << x[0];
+      for (unsigned int d = 1; d < dim; ++d)
+        out << ", " << x[d];
+      return out.str();
+    }
+
+    /// Level set and velocity at the nodes of a cell, face velocity, pressure.
+    template <int dim>
+    constexpr unsigned int row_size = (dim + 1) * (dim + 2) + 1;
+
+    /// Call @p visit with each number of the rows of this rank's cells in turn.
+    template <int dim, typename AnyState, typename Visit>
+    void
+    for_each_number(AnyState &state, const Visit &visit)
+    {
+      const Mesh<dim> &mesh = *state.mesh;
+      for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+        {
+          for (const LocalIndex node : mesh.cell_nodes[c])
+            {
+              visit(state.phi, node, mesh.n_owned_nodes());
+              for (unsigned int d = 0; d < dim; ++d)
+                visit(state.v.component[d], node, mesh.n_owned_nodes());
+            }
+          for (const LocalIndex face : mesh.cell_faces[c])
+            visit(state.u, face, mesh.n_owned_faces());
+          visit(state.pressure, c, mesh.n_owned_cells());
+        }
+    }
+
+    template <int dim>
+    void
+    write_info(std::ostream                                   &out,
+               const State<dim>                               &state,
+               const typename Checkpoint<dim>::Progress &progress)
+    {
+      const Mesh<dim> &mesh = *state.mesh;
+      const auto      &prm  = mesh.octree().parameters();
+      out << std::setprecision(17) << "Format = 1\nDimension = " << dim
+          << "\nRanks = " << Utilities::MPI::n_mpi_processes(mesh.communicator())
+          << "\nTime = " << state.time << "\nStep = " << state.step
+          << "\nFrame = " << progress.frame << "\nCells = " << mesh.cells->size()
+          << "\nLower corner = " << to_text(prm.lower_corner)
+          << "\nUpper corner = " << to_text(prm.upper_corner)
+          << "\nRoot cells = " << prm.root_cells << "\nSurface level = " << prm.surface_level
+          << '\n';
+      for (const auto &[name, value] : progress.scalars)
+        out << scalar_prefix << name << " = " << value << '\n';
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  Checkpoint<dim>::write(const State<dim> &state, const Progress &progress) const
+  {
+    const bool        is_writer = Utilities::MPI::this_mpi_process(comm) == 0;
+    const std::string fresh = path + ".new", old = path + ".old";
+    if (is_writer)
+      discard(fresh);
+    create_directory(comm, fresh);
+
+    const Octree<dim> &octree = state.mesh->octree();
+    std::vector<int>   leaves;
+    for (unsigned int l = 0; l < octree.n_owned_leaves(); ++l)
+      {
+        const Leaf<dim> &leaf = octree.leaves()[l];
+        leaves.insert(leaves.end(), leaf.origin.begin(), leaf.origin.end());
+        leaves.push_back(leaf.level);
+      }
+    TableFile<int>::write(comm, fresh + "/leaves", leaves);
+
+    std::vector<double> rows;
+    rows.reserve(row_size<dim> * state.mesh->n_owned_cells());
+    for_each_number<dim>(state, [&](const Vector &v, const LocalIndex i, const LocalIndex) {
+      rows.push_back(v.local_element(i));
+    });
+    TableFile<double>::write(comm, fresh + "/cells", rows);
+    replace_file(comm, info_file(fresh), [&](std::ostream &out) {
+      write_info<dim>(out, state, progress);
+    });
+
+    std::error_code error;
+    if (is_writer)
+      {
+        discard(old);
+        if (fs::exists(path))
+          fs::rename(path, old, error);
+        if (!error)
+          fs::rename(fresh, path, error);
+        if (!error)
+          discard(old);
+      }
+    throw_first(comm,
+                error ? "The checkpoint \"" + path + "\" cannot be replaced: " + error.message() + "." :
+                        std::string());
+  }
+
+  template <int dim>
+  std::shared_ptr<const Octree<dim>>
+  Checkpoint<dim>::load_octree(const std::string                                    &directory,
+                               const typename Octree<dim>::Parameters               &parameters,
+                               const std::function<unsigned int(const Leaf<dim> &)> &weight) const
+  {
+    std::size_t n = 0;
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      {
+        std::error_code error;
+        n = fs::file_size(directory + "/leaves", error) / sizeof(int);
+        if (error)
+          n = 0; // the reader will complain
+      }
+    n = Utilities::MPI::broadcast(comm, n);
+    const std::vector<int> numbers = TableFile<int>::read(comm, directory + "/leaves", 0, n);
+    std::unordered_map<VertexKey, unsigned int> level_at; // by a leaf's lowest corner
+    for (std::size_t i = 0; i + dim < n; i += dim + 1)
+      {
+        LatticePoint<dim> origin;
+        std::copy_n(numbers.begin() + i, dim, origin.begin());
+        level_at[pack<dim>(origin)] = numbers[i + dim];
+      }
+    return std::make_shared<const Octree<dim>>(
+      comm,
+      parameters,
+      [&](const std::vector<Leaf<dim>> &leaves) {
+        std::vector<bool> refine;
+        for (const Leaf<dim> &leaf : leaves)
+          {
+            const auto it = level_at.find(pack<dim>(leaf.origin));
+            refine.push_back(it != level_at.end() && it->second > leaf.level);
+          }
+        return refine;
+      },
+      weight);
+  }
+
+  template <int dim>
+  State<dim>
+  Checkpoint<dim>::load(const typename Octree<dim>::Parameters               &parameters,
+                        const std::function<unsigned int(const Leaf<dim> &)> &weight,
+                        Progress                                             &progress) const
+  {
+    // the newest that is complete; between two renames it is not at its place
+    std::string directory, text;
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      for (const char *suffix : {"", ".new", ".old"})
+        if (std::ifstream file(info_file(path + suffix)); file && directory.empty())
+          {
+            directory = path + suffix;
+            text.assign(std::istreambuf_iterator<char>(file), {});
+          }
+    directory = Utilities::MPI::broadcast(comm, directory);
+    text      = Utilities::MPI::broadcast(comm, text);
+    require(!directory.empty(),
+            "The run cannot be resumed: there is no checkpoint \"" + path +
+              "\". Start it without --resume.");
+
+    const Info info(text, info_file(directory));
+    info.require_same("Format", "the format", "1");
+    info.require_same("Dimension", "Dimension", std::to_string(dim));
+    info.require_same("Lower corner", "Domain/Lower corner", to_text(parameters.lower_corner));
+    info.require_same("Upper corner", "Domain/Upper corner", to_text(parameters.upper_corner));
+    info.require_same("Root cells", "Mesh/Root cells", std::to_string(parameters.root_cells));
+    info.require_same("Surface level", "Mesh/Surface level", std::to_string(parameters.surface_level));
+
+    const auto mesh = std::make_shared<const Mesh<dim>>(load_octree(directory, parameters, weight));
+    require(info.get("Cells") == std::to_string(mesh->cells->size()),
+            "The checkpoint \"" + directory + "\" is damaged: its leaves do not make " +
+              info.get("Cells") + " cells.");
+    const auto rows = TableFile<double>::read(comm,
+                                              directory + "/cells",
+                                              row_size<dim> * mesh->cells->local_range().first,
+                                              row_size<dim> * mesh->n_owned_cells());
+    State<dim> state(mesh);
+    state.time = std::stod(info.get("Time"));
+    state.step = std::stoul(info.get("Step"));
+    auto next  = rows.begin();
+    // every owned node and face is one of an owned cell
+    for_each_number<dim>(state, [&](Vector &v, const LocalIndex i, const LocalIndex n_owned) {
+      if (i < n_owned)
+        v.local_element(i) = *next;
+      ++next;
+    });
+    state.phi.update_ghost_values();
+    state.u.update_ghost_values();
+    state.v.update_ghost_values();
+    state.pressure.update_ghost_values();
+
+    progress.frame   = std::stoul(info.get("Frame"));
+    progress.scalars = info.scalars(scalar_prefix);
+    return state;
+  }
+
+  template <int dim>
+  void
+  Checkpoint<dim>::remove() const
+  {
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      for (const char *suffix : {"", ".new", ".old"})
+        discard(path + suffix);
+    MPI_Barrier(comm);
+  }
+
+  template class Checkpoint<2>;
+  template class Checkpoint<3>;
+} // namespace treacle

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exchange.h>
+#include <treacle/io/table_file.h>
+
+namespace treacle
+{
+  namespace
+  {
+    template <typename T>
+    MPI_Datatype
+    mpi_type()
+    {
+      return std::is_same_v<T, double> ? MPI_DOUBLE : MPI_INT;
+    }
+
+    /// Say on all ranks what an MPI call told one of them.
+    void
+    check(const MPI_Comm &comm, const int code, const std::string &path)
+    {
+      std::string message;
+      if (code != MPI_SUCCESS)
+        {
+          char text[MPI_MAX_ERROR_STRING];
+          int  length;
+          MPI_Error_string(code, text, &length);
+          message = "The file \"" + path + "\" cannot be written or read: " + text + ".";
+        }
+      throw_first(comm, message);
+    }
+
+    /// Collective; @p use does the work and returns MPI's code.
+    template <typename Use>
+    void
+    with_file(const MPI_Comm &comm, const std::string &path, const int mode, const Use &use)
+    {
+      MPI_File file;
+      check(comm, MPI_File_open(comm, path.c_str(), mode, MPI_INFO_NULL, &file), path);
+      const int code      = use(file);
+      const int when_done = MPI_File_close(&file);
+      check(comm, code != MPI_SUCCESS ? code : when_done, path);
+    }
+  } // namespace
+
+  template <typename T>
+  void
+  TableFile<T>::write(const MPI_Comm &comm, const std::string &path, const std::vector<T> &part)
+  {
+    std::uint64_t       offset = 0;
+    const std::uint64_t n      = part.size();
+    MPI_Exscan(&n, &offset, 1, MPI_UINT64_T, MPI_SUM, comm);
+    with_file(comm, path, MPI_MODE_CREATE | MPI_MODE_WRONLY, [&](MPI_File &file) {
+      return MPI_File_write_at_all(
+        file, offset * sizeof(T), part.data(), n, mpi_type<T>(), MPI_STATUS_IGNORE);
+    });
+  }
+
+  template <typename T>
+  std::vector<T>
+  TableFile<T>::read(const MPI_Comm    &comm,
+                     const std::string &path,
+                     const std::size_t  offset,
+                     const std::size_t  n)
+  {
+    std::vector<T> part(n);
+    int            n_read = 0;
+    with_file(comm, path, MPI_MODE_RDONLY, [&](MPI_File &file) {
+      MPI_Status status;
+      const int  code = MPI_File_read_at_all(
+        file, offset * sizeof(T), part.data(), n, mpi_type<T>(), &status);
+      MPI_Get_count(&status, mpi_type<T>(), &n_read);
+      return code;
+    });
+    throw_first(comm,
+                static_cast<std::size_t>(n_read) == n ? "" : "The file \"" + path + "\" is too short.");
+    return part;
+  }
+
+  template class TableFile<double>;
+  template class TableFile<int>;
+} // namespace treacle

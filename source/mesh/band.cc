@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exchange.h>
+#include <treacle/mesh/band.h>
+
+#include <unordered_set>
+
+namespace treacle
+{
+  namespace
+  {
+    template <typename T>
+    void
+    sort_unique(std::vector<T> &v)
+    {
+      std::sort(v.begin(), v.end());
+      v.erase(std::unique(v.begin(), v.end()), v.end());
+    }
+
+    unsigned int
+    meeting_rank(const VertexKey key, const unsigned int n_ranks)
+    {
+      return (key * 0x9e3779b97f4a7c15ull >> 32) % n_ranks;
+    }
+  } // namespace
+
+  template <int dim>
+  Band<dim>::Band(const Octree<dim>             &octree,
+                  const std::vector<Point<dim>> &points,
+                  const unsigned int             width)
+    : comm(octree.communicator())
+    , finest_level(octree.parameters().surface_level)
+  {
+    for (const Point<dim> &x : points)
+      cubes.push_back(octree.finest_cube(x));
+    sort_unique(cubes);
+    const int w = width;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        std::vector<LatticePoint<dim>> grown;
+        for (const LatticePoint<dim> &cube : cubes)
+          for (int k = -w; k <= w; ++k)
+            {
+              LatticePoint<dim> other = cube;
+              other[d] += 2 * k;
+              if (other[d] >= 0 && other[d] < octree.extent()[d])
+                grown.push_back(other);
+            }
+        sort_unique(grown);
+        cubes = std::move(grown);
+      }
+  }
+
+  template <int dim>
+  bool
+  Band<dim>::is_finest_in(const Octree<dim> &octree) const
+  {
+    // a cube that is not one of this rank's leaves is asked of its owner
+    std::vector<Point<dim>> elsewhere;
+    bool                    finest = true;
+    for (const LatticePoint<dim> &cube : cubes)
+      {
+        LatticePoint<dim> centre = cube;
+        for (int &i : centre)
+          ++i;
+        const Point<dim> x    = octree.position(centre);
+        const LocalIndex leaf = octree.leaf_containing(x);
+        if (leaf == invalid)
+          elsewhere.push_back(x);
+        else
+          finest = finest && octree.leaves()[leaf].size == 2;
+      }
+    const std::vector<unsigned int>  owner = octree.owner_ranks(elsewhere);
+    PerRank<std::array<double, dim>> questions(Utilities::MPI::n_mpi_processes(comm));
+    for (unsigned int i = 0; i < elsewhere.size(); ++i)
+      {
+        std::array<double, dim> x;
+        for (unsigned int d = 0; d < dim; ++d)
+          x[d] = elsewhere[i][d];
+        questions[owner[i]].push_back(x);
+      }
+    for (const auto &asked : send_and_receive(comm, questions))
+      for (const auto &numbers : asked)
+        {
+          Point<dim> x;
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] = numbers[d];
+          const LocalIndex leaf = octree.leaf_containing(x);
+          finest = finest && leaf != invalid && octree.leaves()[leaf].size == 2;
+        }
+    return Utilities::MPI::min(finest ? 1 : 0, comm) == 1;
+  }
+
+  template <int dim>
+  std::vector<bool>
+  Band<dim>::touches(const std::vector<Leaf<dim>> &leaves) const
+  {
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+    const int          root    = 2 << finest_level;
+    // ranks without leaves of this level do not know it
+    const unsigned int level =
+      Utilities::MPI::max(leaves.empty() ? 0u : leaves.front().level, comm);
+    const int size = root >> level;
+
+    std::vector<VertexKey> keys;
+    for (LatticePoint<dim> cube : cubes)
+      {
+        for (int &i : cube)
+          i &= ~(size - 1);
+        keys.push_back(pack<dim>(cube));
+      }
+    sort_unique(keys);
+    PerRank<VertexKey> told(n_ranks), asked(n_ranks);
+    for (const VertexKey key : keys)
+      told[meeting_rank(key, n_ranks)].push_back(key);
+    for (const Leaf<dim> &leaf : leaves)
+      {
+        const VertexKey key = pack<dim>(leaf.origin);
+        asked[meeting_rank(key, n_ranks)].push_back(key);
+      }
+    std::unordered_set<VertexKey> known;
+    for (const auto &list : send_and_receive(comm, told))
+      known.insert(list.begin(), list.end());
+    PerRank<char> answers(n_ranks);
+    const auto    questions = send_and_receive(comm, asked);
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      for (const VertexKey key : questions[r])
+        answers[r].push_back(known.count(key) > 0);
+    const auto                heard = send_and_receive(comm, answers);
+    std::vector<unsigned int> next(n_ranks, 0);
+    std::vector<bool>         result;
+    for (const Leaf<dim> &leaf : leaves)
+      {
+        const unsigned int r = meeting_rank(pack<dim>(leaf.origin), n_ranks);
+        result.push_back(heard[r][next[r]++] != 0);
+      }
+    return result;
+  }
+
+  template class Band<2>;
+  template class Band<3>;
+} // namespace treacle

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exchange.h>
+#include <treacle/base/files.h>
+#include <treacle/simulator.h>
+#include <treacle/steps/advection.h>
+#include <treacle/steps/redistance.h>
+#include <treacle/steps/remesh.h>
+
+#include <cstdio>
+#include <ostream>
+
+namespace treacle
+{
+  template <int dim>
+  void
+  Simulator<dim>::Parameters::add_parameters(ParameterHandler  &handler,
+                                             const unsigned int n_liquids,
+                                             const unsigned int n_solids)
+  {
+    handler.add_parameter("Dimension", dimension, "Of space.", Patterns::Integer(2, 3));
+    handler.add_parameter("Output directory",
+                          output_directory,
+                          "Where everything that a run writes goes.");
+    time_step.add_parameters(handler);
+    scene.add_parameters(handler, n_liquids, n_solids);
+    mesh.add_parameters(handler);
+    tracking.add_parameters(handler);
+    reconstruction.add_parameters(handler);
+    face_fit.add_parameters(handler);
+    viscosity.add_parameters(handler);
+    handler.enter_subsection("Viscosity");
+    handler.add_parameter("Pressure coupling",
+                          coupling,
+                          "Gravity, viscosity and projection in a row, or with a projection before "
+                          "viscosity too, which follows slow flows much better.",
+                          Patterns::Selection("split|split with first projection"));
+    handler.leave_subsection();
+    projection.add_parameters(handler);
+    mesh_writer.add_parameters(handler);
+    surface_writer.add_parameters(handler);
+    checkpoint.add_parameters(handler);
+  }
+
+  namespace
+  {
+    template <int dim>
+    typename Octree<dim>::Parameters
+    with_box(typename Octree<dim>::Parameters mesh, const Scene<dim> &scene)
+    {
+      mesh.lower_corner = scene.lower_corner();
+      mesh.upper_corner = scene.upper_corner();
+      return mesh;
+    }
+  } // namespace
+
+  template <int dim>
+  Simulator<dim>::Simulator(const MPI_Comm    &comm,
+                            const Parameters  &parameters,
+                            const std::string &parameters_as_used)
+    : comm(comm)
+    , prm(parameters)
+    , parameters_as_used(parameters_as_used)
+    , scene(prm.scene)
+    , time_step(prm.time_step)
+    , tracking(prm.tracking)
+    , viscosity(prm.viscosity)
+    , reconstruction(prm.reconstruction)
+    , mesh_writer(prm.mesh_writer)
+    , surface_writer(prm.surface_writer)
+    , checkpoint(comm, prm.checkpoint, prm.output_directory)
+    , timing(comm)
+  {
+    with_box(prm.mesh, scene).check();
+  }
+
+  template <int dim>
+  void
+  Simulator<dim>::run(const bool resume)
+  {
+    if (resume)
+      this->resume();
+    else
+      start();
+    log->line("Treacle " TREACLE_VERSION ", " + std::to_string(dim) + "D, " +
+              std::to_string(Utilities::MPI::n_mpi_processes(comm)) + " ranks, " +
+              std::to_string(state->mesh->cells->size()) + " cells, leaf edge " +
+              Utilities::to_string(state->mesh->finest_size()) + " m");
+
+    while (frame < time_step.n_frames())
+      {
+        step(time_step.next(*state, *domain, frame + 1));
+        if (state->time >= time_step.frame_time(frame + 1) * (1 - 1e-12))
+          {
+            ++frame;
+            output_frame();
+          }
+        log->progress(state->time / prm.time_step.end_time);
+      }
+    log->line(timing.summary());
+    timing.write(prm.output_directory);
+  }
+
+  template <int dim>
+  void
+  Simulator<dim>::start()
+  {
+    const auto parameters = with_box(prm.mesh, scene);
+    state = std::make_unique<State<dim>>(initial_mesh<dim>(comm, parameters, scene));
+    const Mesh<dim> &mesh = *state->mesh;
+    reach                 = (prm.time_step.cfl + 3) * mesh.finest_size();
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      state->phi.local_element(node) = scene.liquid_distance(mesh.node_position[node]);
+    state->phi.update_ghost_values();
+    check_liquids();
+    redistance(*state, reach);
+
+    domain = std::make_unique<LiquidDomain<dim>>(*state, scene, prm.projection.minimum_theta);
+    volume = domain->total_volume();
+    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
+      if (domain->is_liquid_face(f))
+        state->u.local_element(f) =
+          scene.initial_velocity(mesh.face_centre[f]) * mesh.face_normal[f];
+    state->u.update_ghost_values();
+    reconstruction.advance(*state, FaceFit<dim>(prm.face_fit, *domain), reach);
+
+    // nothing is written before all that can be wrong with the scene was seen
+    log        = std::make_unique<Log>(comm, prm.output_directory, false);
+    statistics = std::make_unique<Statistics<dim>>(comm, prm.output_directory);
+    checkpoint.remove();
+    write_parameters();
+    output_frame();
+  }
+
+  template <int dim>
+  void
+  Simulator<dim>::resume()
+  {
+    auto [loaded, progress] = checkpoint.load(with_box(prm.mesh, scene), &leaf_weight<dim>);
+    state                   = std::make_unique<State<dim>>(std::move(loaded));
+    frame                   = progress.frame;
+    volume                  = progress.scalars.at("volume");
+    reach                   = (prm.time_step.cfl + 3) * state->mesh->finest_size();
+    domain = std::make_unique<LiquidDomain<dim>>(*state, scene, prm.projection.minimum_theta);
+    log        = std::make_unique<Log>(comm, prm.output_directory, true);
+    statistics = std::make_unique<Statistics<dim>>(comm, prm.output_directory);
+    statistics->resume(state->step);
+    write_parameters();
+    log->line("resumed at t = " + Utilities::to_string(state->time) + " s, frame " +
+              std::to_string(frame));
+  }
+
+  template <int dim>
+  void
+  Simulator<dim>::write_parameters() const
+  {
+    replace_file(comm, prm.output_directory + "/parameters.prm", [&](std::ostream &out) {
+      out << parameters_as_used;
+    });
+  }
+
+  template <int dim>
+  void
+  Simulator<dim>::check_liquids() const
+  {
+    const Mesh<dim> &mesh = *state->mesh;
+    for (unsigned int k = 0; k < scene.n_liquids(); ++k)
+      {
+        bool in_box = false, outside_solids = false;
+        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+          if (scene.liquid_distance(k, mesh.node_position[node]) < 0)
+            {
+              in_box         = true;
+              outside_solids = outside_solids || scene.solid_distance(mesh.node_position[node], 0) > 0;
+            }
+        const std::string liquid = "Liquid " + std::to_string(k + 1);
+        require(Utilities::MPI::max(in_box ? 1 : 0, comm) == 1,
+                liquid + " lies outside the box, or is smaller than the cells: move it, change "
+                         "Domain/Lower corner and Upper corner, or raise Mesh/Surface level.");
+        require(Utilities::MPI::max(outside_solids ? 1 : 0, comm) == 1,
+                liquid + " lies inside a solid: move one of them.");
+      }
+  }
+
+  template <int dim>
+  void
+  Simulator<dim>::move_surface(const double dt)
+  {
+    const Advection<dim> advection(*state, *domain);
+    const auto           mesh = [&] {
+      const auto section = timing.section("mesh");
+      return mesh_for_next_surface(*state, advection, dt);
+    }();
+    info.rebuilt = mesh != state->mesh;
+    State<dim> next = [&] {
+      const auto section = timing.section("advection");
+      return advection.advance(mesh, dt, reach);
+    }();
+    {
+      const auto section = timing.section("surface");
+      tracking.advance(next, scene, reach, volume);
+    }
+    if (!info.rebuilt) // the first guess of the next solves
+      next.v = state->v;
+    next.v.update_ghost_values();
+    domain.reset();
+    *state = std::move(next);
+  }
+
+  template <int dim>
+  void
+  Simulator<dim>::step(const double dt)
+  {
+    Timer wall;
+    info    = StepInfo();
+    info.dt = dt;
+    move_surface(dt);
+    {
+      const auto section = timing.section("liquid domain");
+      domain = std::make_unique<LiquidDomain<dim>>(*state, scene, prm.projection.minimum_theta);
+      forces.advance(*state, *domain, dt);
+    }
+    const auto projection = [&] {
+      const auto section = timing.section("pressure");
+      return std::make_unique<const Projection<dim>>(prm.projection, *domain);
+    }();
+    using Pass        = typename Projection<dim>::Pass;
+    const auto project = [&](const Pass pass) {
+      const auto section = timing.section("pressure");
+      info.pressure_iterations += projection->advance(*state, dt, pass);
+    };
+    const bool twice = prm.coupling == "split with first projection";
+    if (twice)
+      project(Pass::first);
+    const auto fit = [&] {
+      const auto section = timing.section("face fit");
+      return std::make_unique<const FaceFit<dim>>(prm.face_fit, *domain);
+    }();
+    {
+      const auto section        = timing.section("viscosity");
+      info.viscosity_iterations = viscosity.advance(*state, *fit, dt);
+    }
+    project(twice ? Pass::correction : Pass::first);
+    info.maximum_divergence = projection->maximum_divergence(*state);
+    {
+      const auto section = timing.section("reconstruction");
+      reconstruction.advance(*state, *fit, reach);
+    }
+    info.wall_time = wall.wall_time();
+    report();
+  }
+
+  template <int dim>
+  void
+  Simulator<dim>::report()
+  {
+    statistics->add_row(*state, *domain, info);
+    char text[200];
+    std::snprintf(text,
+                  sizeof text,
+                  "step %5u  t %.6f s  dt %.2e s  %8llu cells%s  speed %.2e m/s  "
+                  "viscosity %3u  pressure %3u  %.2f s",
+                  state->step,
+                  state->time,
+                  info.dt,
+                  static_cast<unsigned long long>(state->mesh->cells->size()),
+                  info.rebuilt ? " (new)" : "      ",
+                  statistics->last("Maximum speed (m/s)"),
+                  info.viscosity_iterations,
+                  info.pressure_iterations,
+                  info.wall_time);
+    log->line(text);
+  }
+
+  template <int dim>
+  void
+  Simulator<dim>::output_frame()
+  {
+    const auto section = timing.section("output");
+    surface_writer.write(*state, prm.output_directory, frame);
+    mesh_writer.write(*state, *domain, prm.output_directory, frame);
+    if (checkpoint.is_due(frame))
+      checkpoint.write(*state, {frame, {{"volume", volume}}});
+  }
+
+  template class Simulator<2>;
+  template class Simulator<3>;
+} // namespace treacle

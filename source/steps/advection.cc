@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/mesh/tracer.h>
+#include <treacle/steps/advection.h>
+#include <treacle/steps/redistance.h>
+
+namespace treacle
+{
+  namespace
+  {
+    /// Replace the velocity of constrained nodes by the mean over free nodes of
+    /// the cells around them, layer by layer.
+    template <int dim>
+    NodeVector<dim>
+    slipping_velocity(const State<dim> &state, const LiquidDomain<dim> &domain)
+    {
+      const Mesh<dim>  &mesh = domain.mesh;
+      NodeVector<dim> v    = state.v;
+      Vector            free = mesh.zeros(mesh.nodes);
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        free.local_element(node) = domain.constrained[node] == 0;
+      for (unsigned int layer = 0; layer < 3; ++layer)
+        {
+          free.update_ghost_values();
+          v.update_ghost_values();
+          const NodeVector<dim> known = v;
+          known.update_ghost_values();
+          const Vector was_free = free;
+          was_free.update_ghost_values();
+          for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+            {
+              if (was_free.local_element(node) > 0)
+                continue;
+              Tensor<1, dim> sum;
+              double         n = 0;
+              for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+                for (const LocalIndex other : mesh.cell_nodes[mesh.node_cells[k]])
+                  if (was_free.local_element(other) > 0)
+                    {
+                      sum += known.value(other);
+                      ++n;
+                    }
+              if (n == 0)
+                continue;
+              v.set(node, Tensor<1, dim>(sum / n));
+              free.local_element(node) = 1;
+            }
+        }
+      v.update_ghost_values();
+      return v;
+    }
+  } // namespace
+
+  template <int dim>
+  Advection<dim>::Advection(const State<dim> &old, const LiquidDomain<dim> &domain)
+    : old(old)
+    , surface_velocity(slipping_velocity(old, domain))
+    , phi_gradient(nodal_gradient(*old.mesh, old.phi))
+  {}
+
+  template <int dim>
+  std::vector<Point<dim>>
+  Advection<dim>::move_surface(const std::vector<Point<dim>> &x, const double dt) const
+  {
+    return Tracer<dim>(*old.mesh).trace(x, surface_velocity, dt);
+  }
+
+  template <int dim>
+  std::vector<double>
+  Advection<dim>::level_set(const std::vector<Point<dim>> &x, const double dt) const
+  {
+    const Tracer<dim> tracer(*old.mesh);
+    return tracer.evaluate(tracer.trace(x, surface_velocity, -dt), {{&old.phi, &phi_gradient}});
+  }
+
+  template <int dim>
+  State<dim>
+  Advection<dim>::advance(std::shared_ptr<const Mesh<dim>> mesh,
+                          const double                     dt,
+                          const double                     reach) const
+  {
+    State<dim> state(mesh);
+    state.time = old.time + dt;
+    state.step = old.step + 1;
+    if (mesh == old.mesh)
+      state.pressure = old.pressure;
+    state.pressure.update_ghost_values();
+
+    std::vector<Point<dim>> x(mesh->node_position.begin(),
+                              mesh->node_position.begin() + mesh->n_owned_nodes());
+    const std::vector<double> phi = level_set(x, dt);
+    std::copy(phi.begin(), phi.end(), state.phi.begin());
+    state.phi.update_ghost_values();
+
+    std::vector<LocalIndex> faces;
+    x.clear();
+    for (LocalIndex f = 0; f < mesh->n_owned_faces(); ++f)
+      if (std::any_of(mesh->face_nodes[f].begin(), mesh->face_nodes[f].end(), [&](const auto node) {
+            return state.phi.local_element(node) < reach;
+          }))
+        {
+          faces.push_back(f);
+          x.push_back(mesh->face_centre[f]);
+        }
+    const Tracer<dim>           tracer(*old.mesh);
+    std::vector<NodeField<dim>> fields;
+    for (const Vector &component : old.v.component)
+      fields.push_back({&component});
+    const std::vector<double> v = tracer.evaluate(tracer.trace(x, old.v, -dt), fields);
+    for (unsigned int i = 0; i < faces.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        state.u.local_element(faces[i]) += mesh->face_normal[faces[i]][d] * v[dim * i + d];
+    state.u.update_ghost_values();
+    return state;
+  }
+
+  template class Advection<2>;
+  template class Advection<3>;
+} // namespace treacle

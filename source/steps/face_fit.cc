@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/steps/face_fit.h>
+
+namespace treacle
+{
+  template <int dim>
+  FaceFit<dim>::FaceFit(const Parameters &parameters, const LiquidDomain<dim> &domain)
+    : system(domain)
+    , domain(domain)
+    , strain_coefficient(domain.mesh.cell_nodes.size())
+  {
+    for (LocalIndex c = 0; c < strain_coefficient.size(); ++c)
+      strain_coefficient[c] = 1e-2 * domain.mesh.cell_size[c] * domain.mesh.cell_size[c] *
+                              domain.density[c] * domain.mesh.cell_volume[c];
+    assembled = system.assemble(NodeSystem<dim>::Mass::faces, strain_coefficient);
+    solver = std::make_unique<LinearSolver>(parameters.solver,
+                                            "Face fit",
+                                            *assembled.matrix,
+                                            system.rigid_motions());
+  }
+
+  template <int dim>
+  unsigned int
+  FaceFit<dim>::solve(const Vector &u, NodeVector<dim> &v) const
+  {
+    const Vector       b = system.right_hand_side(system.face_momentum(u), assembled);
+    Vector             x = system.unknowns(v);
+    const unsigned int n = solver->solve(x, b);
+    system.to_nodes(x, v);
+    return n;
+  }
+
+  template class FaceFit<2>;
+  template class FaceFit<3>;
+} // namespace treacle

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/steps/node_system.h>
+
+namespace treacle
+{
+  template <int dim>
+  NodeSystem<dim>::NodeSystem(const LiquidDomain<dim> &domain)
+    : domain(domain)
+    , slot(domain.mesh.node_position.size(), invalid)
+  {
+    const Mesh<dim> &mesh = domain.mesh;
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      if (domain.is_active_node[node])
+        owned_nodes.push_back(node);
+    const GlobalIndex n_owned = owned_nodes.size();
+    GlobalIndex       first   = 0;
+    MPI_Exscan(&n_owned, &first, 1, DEAL_II_DOF_INDEX_MPI_TYPE, MPI_SUM, mesh.communicator());
+    const GlobalIndex n = Utilities::MPI::sum(n_owned, mesh.communicator());
+
+    Vector ids = mesh.zeros(mesh.nodes);
+    for (unsigned int i = 0; i < n_owned; ++i)
+      ids.local_element(owned_nodes[i]) = first + i + 1;
+    ids.update_ghost_values();
+    number.resize(mesh.node_position.size());
+    for (LocalIndex node = 0; node < number.size(); ++node)
+      number[node] = ids.local_element(node) > 0 ?
+                       static_cast<GlobalIndex>(ids.local_element(node)) - 1 :
+                       numbers::invalid_dof_index;
+    rows.set_size(dim * n);
+    rows.add_range(dim * first, dim * (first + n_owned));
+  }
+
+  template <int dim>
+  void
+  NodeSystem<dim>::assemble_node(const Mass                   mass,
+                                 const std::vector<double>   &strain_coefficient,
+                                 const LocalIndex             node,
+                                 std::vector<LocalIndex>     &columns,
+                                 std::vector<Tensor<2, dim>> &blocks) const
+  {
+    const Mesh<dim> &mesh = domain.mesh;
+    columns.assign(1, node);
+    blocks.assign(1, Tensor<2, dim>());
+    slot[node]          = 0;
+    const auto block_of = [&](const LocalIndex other) -> Tensor<2, dim> & {
+      if (slot[other] == invalid)
+        {
+          slot[other] = columns.size();
+          columns.push_back(other);
+          blocks.emplace_back();
+        }
+      return blocks[slot[other]];
+    };
+
+    for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+      {
+        const LocalIndex c = mesh.node_cells[k];
+        if (!domain.is_active_cell[c])
+          continue;
+        const auto &nodes = mesh.cell_nodes[c];
+        const auto &g     = mesh.cell_gradients[c];
+        const auto  i     = std::find(nodes.begin(), nodes.end(), node) - nodes.begin();
+        for (unsigned int j = 0; j <= dim; ++j)
+          {
+            Tensor<2, dim> &block = block_of(nodes[j]);
+            const double    gg    = strain_coefficient[c] * (g[i] * g[j]);
+            for (unsigned int a = 0; a < dim; ++a)
+              {
+                block[a][a] += gg;
+                for (unsigned int b = 0; b < dim; ++b)
+                  block[a][b] += strain_coefficient[c] * g[j][a] * g[i][b];
+              }
+          }
+      }
+
+    if (mass == Mass::nodes)
+      for (unsigned int d = 0; d < dim; ++d)
+        blocks[0][d][d] += domain.node_mass[node];
+    else
+      for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+        for (const LocalIndex f : mesh.cell_faces[mesh.node_cells[k]])
+          {
+            const auto &nodes = mesh.face_nodes[f];
+            if (!domain.is_liquid_face(f) || mesh.face_cells[f][0] != mesh.node_cells[k] ||
+                std::find(nodes.begin(), nodes.end(), node) == nodes.end())
+              continue;
+            const Tensor<1, dim> &n = mesh.face_normal[f];
+            const Tensor<2, dim>  m = domain.face_mass[f] / (dim * dim) * outer_product(n, n);
+            for (const LocalIndex other : nodes)
+              block_of(other) += m;
+          }
+    for (const LocalIndex other : columns)
+      slot[other] = invalid;
+  }
+
+  template <int dim>
+  typename NodeSystem<dim>::Assembled
+  NodeSystem<dim>::assemble(const Mass mass, const std::vector<double> &strain_coefficient) const
+  {
+    const Mesh<dim>            &mesh = domain.mesh;
+    Assembled                   result;
+    std::vector<LocalIndex>     columns;
+    std::vector<Tensor<2, dim>> blocks;
+
+    std::vector<unsigned int> lengths;
+    for (const LocalIndex node : owned_nodes)
+      {
+        assemble_node(mass, strain_coefficient, node, columns, blocks);
+        lengths.insert(lengths.end(), dim, dim * columns.size());
+      }
+    result.matrix =
+      std::make_unique<TrilinosWrappers::SparseMatrix>(rows, rows, mesh.communicator(), lengths);
+    result.shift.reinit(rows, mesh.communicator());
+
+    const auto is_constrained = [&](const LocalIndex node, const unsigned int d) {
+      return (domain.constrained[node] >> d & 1) != 0;
+    };
+    std::vector<GlobalIndex> indices;
+    std::vector<double>      values;
+    for (unsigned int i = 0; i < owned_nodes.size(); ++i)
+      {
+        const LocalIndex node = owned_nodes[i];
+        assemble_node(mass, strain_coefficient, node, columns, blocks);
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            const GlobalIndex row = dim * number[node] + a;
+            // a component that nothing holds keeps the value it has
+            const double diagonal = blocks[0][a][a] > 0 ? blocks[0][a][a] : 1;
+            indices.assign(1, row);
+            values.assign(1, diagonal);
+            if (!is_constrained(node, a))
+              for (unsigned int k = 0; k < columns.size(); ++k)
+                for (unsigned int b = 0; b < dim; ++b)
+                  if (is_constrained(columns[k], b))
+                    result.shift.local_element(dim * i + a) -=
+                      blocks[k][a][b] * domain.prescribed[columns[k]][b];
+                  else if (k != 0 || a != b)
+                    {
+                      indices.push_back(dim * number[columns[k]] + b);
+                      values.push_back(blocks[k][a][b]);
+                    }
+            result.matrix->set(row, indices.size(), indices.data(), values.data(), false);
+          }
+      }
+    result.matrix->compress(VectorOperation::insert);
+    return result;
+  }
+
+  template <int dim>
+  Vector
+  NodeSystem<dim>::unknowns(const NodeVector<dim> &v) const
+  {
+    Vector x(rows, domain.mesh.communicator());
+    for (unsigned int i = 0; i < owned_nodes.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        x.local_element(dim * i + d) = domain.constrained[owned_nodes[i]] >> d & 1 ?
+                                         domain.prescribed[owned_nodes[i]][d] :
+                                         v.component[d].local_element(owned_nodes[i]);
+    return x;
+  }
+
+  template <int dim>
+  void
+  NodeSystem<dim>::to_nodes(const Vector &x, NodeVector<dim> &v) const
+  {
+    for (unsigned int i = 0; i < owned_nodes.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        v.component[d].local_element(owned_nodes[i]) = x.local_element(dim * i + d);
+    v.update_ghost_values();
+  }
+
+  template <int dim>
+  Vector
+  NodeSystem<dim>::right_hand_side(const std::vector<Tensor<1, dim>> &momentum,
+                                   const Assembled                   &assembled) const
+  {
+    Vector b(assembled.shift);
+    for (unsigned int i = 0; i < owned_nodes.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const LocalIndex node = owned_nodes[i];
+          if (domain.constrained[node] >> d & 1)
+            b.local_element(dim * i + d) =
+              assembled.matrix->diag_element(dim * number[node] + d) * domain.prescribed[node][d];
+          else
+            b.local_element(dim * i + d) += momentum[node][d];
+        }
+    return b;
+  }
+
+  template <int dim>
+  std::vector<Tensor<1, dim>>
+  NodeSystem<dim>::face_momentum(const Vector &u) const
+  {
+    const Mesh<dim>            &mesh = domain.mesh;
+    std::vector<Tensor<1, dim>> momentum(mesh.node_position.size());
+    // faces of ghosts too: all that touch an owned node are known
+    for (LocalIndex f = 0; f < mesh.face_nodes.size(); ++f)
+      if (domain.is_liquid_face(f))
+        for (const LocalIndex node : mesh.face_nodes[f])
+          momentum[node] += domain.face_mass[f] / dim * u.local_element(f) * mesh.face_normal[f];
+    return momentum;
+  }
+
+  template <int dim>
+  NearNullSpace
+  NodeSystem<dim>::rigid_motions() const
+  {
+    NearNullSpace space;
+    space.n_components   = dim;
+    space.n_vectors      = dim == 2 ? 3 : 6;
+    const std::size_t n  = dim * owned_nodes.size();
+    const auto       &box = domain.mesh.octree().parameters();
+    const Point<dim>  origin = box.lower_corner + 0.5 * (box.upper_corner - box.lower_corner);
+    space.vectors.assign(space.n_vectors * n, 0);
+    for (unsigned int i = 0; i < owned_nodes.size(); ++i)
+      {
+        const Tensor<1, dim> r = domain.mesh.node_position[owned_nodes[i]] - origin;
+        const auto           set = [&](const unsigned int k, const unsigned int d, const double value) {
+          if ((domain.constrained[owned_nodes[i]] >> d & 1) == 0)
+            space.vectors[k * n + dim * i + d] = value;
+        };
+        for (unsigned int d = 0; d < dim; ++d)
+          set(d, d, 1);
+        for (unsigned int k = dim; k < space.n_vectors; ++k)
+          {
+            const unsigned int a = (k - dim) % dim, b = (k - dim + 1) % dim;
+            set(k, a, -r[b]);
+            set(k, b, r[a]);
+          }
+      }
+    return space;
+  }
+
+  template class NodeSystem<2>;
+  template class NodeSystem<3>;
+} // namespace treacle

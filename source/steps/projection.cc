@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/steps/projection.h>
+
+#include <map>
+#include <set>
+
+namespace treacle
+{
+  template <int dim>
+  void
+  Projection<dim>::Parameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Pressure");
+    prm.add_parameter("Minimum theta",
+                      minimum_theta,
+                      "Smallest liquid part of the dual edge of a face that the surface cuts.",
+                      Patterns::Double(1e-6, 1));
+    prm.leave_subsection();
+    solver.add_parameters(prm, "Pressure");
+  }
+
+  template <int dim>
+  Projection<dim>::Projection(const Parameters &parameters, const LiquidDomain<dim> &domain)
+    : prm(parameters)
+    , domain(domain)
+  {
+    const Mesh<dim> &mesh = domain.mesh;
+    for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+      if (domain.is_pressure_cell[c])
+        owned_cells.push_back(c);
+    const GlobalIndex n_owned = owned_cells.size();
+    GlobalIndex       first   = 0;
+    MPI_Exscan(&n_owned, &first, 1, DEAL_II_DOF_INDEX_MPI_TYPE, MPI_SUM, mesh.communicator());
+    Vector ids = mesh.zeros(mesh.cells);
+    for (unsigned int i = 0; i < n_owned; ++i)
+      ids.local_element(owned_cells[i]) = first + i + 1;
+    ids.update_ghost_values();
+    number.resize(mesh.cell_nodes.size());
+    for (LocalIndex c = 0; c < number.size(); ++c)
+      number[c] = ids.local_element(c) > 0 ? static_cast<GlobalIndex>(ids.local_element(c)) - 1 :
+                                             numbers::invalid_dof_index;
+    rows.set_size(Utilities::MPI::sum(n_owned, mesh.communicator()));
+    rows.add_range(first, first + n_owned);
+    find_closed_pockets();
+    assemble();
+    solver = std::make_unique<LinearSolver>(prm.solver, "Pressure", *matrix);
+  }
+
+  template <int dim>
+  void
+  Projection<dim>::find_closed_pockets()
+  {
+    // spread the smallest number through each connected set of pressure cells
+    const Mesh<dim> &mesh  = domain.mesh;
+    Vector           label = mesh.zeros(mesh.cells), open = mesh.zeros(mesh.cells);
+    for (LocalIndex c = 0; c < mesh.cell_nodes.size(); ++c)
+      label.local_element(c) =
+        number[c] == numbers::invalid_dof_index ? -1. : static_cast<double>(number[c]);
+    std::vector<LocalIndex> stack;
+    for (const LocalIndex c : owned_cells)
+      stack.push_back(c);
+    for (bool changed = true; changed;)
+      {
+        changed = false;
+        while (!stack.empty())
+          {
+            const LocalIndex c = stack.back();
+            stack.pop_back();
+            for (const LocalIndex f : mesh.cell_faces[c])
+              for (const LocalIndex other : mesh.face_cells[f])
+                if (other != invalid && other != c && domain.is_liquid_face(f) &&
+                    other < mesh.n_owned_cells() && label.local_element(other) >= 0)
+                  {
+                    double &mine = label.local_element(c), &theirs = label.local_element(other);
+                    if (theirs > mine)
+                      {
+                        theirs = mine;
+                        stack.push_back(other);
+                      }
+                    else if (mine > theirs)
+                      {
+                        mine = theirs;
+                        stack.push_back(c);
+                      }
+                  }
+          }
+        label.update_ghost_values();
+        for (const LocalIndex c : owned_cells)
+          for (const LocalIndex f : mesh.cell_faces[c])
+            for (const LocalIndex other : mesh.face_cells[f])
+              if (other != invalid && other >= mesh.n_owned_cells() && domain.is_liquid_face(f) &&
+                  label.local_element(other) >= 0 &&
+                  label.local_element(other) < label.local_element(c))
+                {
+                  label.local_element(c) = label.local_element(other);
+                  stack.push_back(c);
+                }
+        label.zero_out_ghost_values();
+        changed = Utilities::MPI::max(stack.empty() ? 0 : 1, mesh.communicator()) > 0;
+      }
+
+    // which labels see air?
+    std::set<GlobalIndex> closed, seen_open;
+    for (const LocalIndex c : owned_cells)
+      {
+        closed.insert(label.local_element(c));
+        for (const LocalIndex f : mesh.cell_faces[c])
+          for (const LocalIndex other : mesh.face_cells[f])
+            if (other != invalid && domain.is_liquid_face(f) && !domain.is_pressure_cell[other])
+              seen_open.insert(label.local_element(c));
+      }
+    std::set<GlobalIndex> all_open, all_closed;
+    const auto everywhere = [&](const std::set<GlobalIndex> &here, std::set<GlobalIndex> &all) {
+      const std::vector<GlobalIndex> list(here.begin(), here.end());
+      for (const auto &part : Utilities::MPI::all_gather(mesh.communicator(), list))
+        all.insert(part.begin(), part.end());
+    };
+    everywhere(seen_open, all_open);
+    for (const GlobalIndex l : all_open)
+      closed.erase(l);
+    everywhere(closed, all_closed);
+
+    std::map<GlobalIndex, unsigned int> index;
+    for (const GlobalIndex l : all_closed)
+      index.emplace(l, index.size());
+    pockets.resize(index.size());
+    for (unsigned int i = 0; i < owned_cells.size(); ++i)
+      {
+        const GlobalIndex l  = label.local_element(owned_cells[i]);
+        const auto        it = index.find(l);
+        if (it == index.end())
+          continue;
+        pockets[it->second].rows.push_back(i);
+        if (number[owned_cells[i]] == l)
+          pinned.push_back(i);
+      }
+    for (Pocket &pocket : pockets)
+      pocket.size = Utilities::MPI::sum<GlobalIndex>(pocket.rows.size(), mesh.communicator());
+  }
+
+  template <int dim>
+  void
+  Projection<dim>::assemble()
+  {
+    const Mesh<dim> &mesh = domain.mesh;
+    matrix = std::make_unique<TrilinosWrappers::SparseMatrix>(
+      rows, rows, mesh.communicator(), std::vector<unsigned int>(owned_cells.size(), dim + 2));
+    std::vector<GlobalIndex> indices;
+    std::vector<double>      values;
+    for (unsigned int i = 0; i < owned_cells.size(); ++i)
+      {
+        const LocalIndex c = owned_cells[i];
+        indices.assign(1, number[c]);
+        values.assign(1, 0.);
+        for (const LocalIndex f : mesh.cell_faces[c])
+          if (domain.is_liquid_face(f))
+            {
+              const double     flux = domain.open_fraction[f] * mesh.face_area[f];
+              const double     k    = flux * flux / domain.face_mass[f];
+              const LocalIndex other =
+                mesh.face_cells[f][0] == c ? mesh.face_cells[f][1] : mesh.face_cells[f][0];
+              values[0] += k;
+              if (number[other] != numbers::invalid_dof_index)
+                {
+                  indices.push_back(number[other]);
+                  values.push_back(-k);
+                }
+            }
+        if (values[0] == 0) // walled in on all sides
+          values[0] = 1;
+        if (std::find(pinned.begin(), pinned.end(), i) != pinned.end())
+          values[0] *= 2;
+        matrix->set(number[c], indices.size(), indices.data(), values.data(), false);
+      }
+    matrix->compress(VectorOperation::insert);
+  }
+
+  template <int dim>
+  double
+  Projection<dim>::outflow(const LocalIndex c, const Vector &u) const
+  {
+    double flux = 0;
+    for (const LocalIndex f : domain.mesh.cell_faces[c])
+      {
+        const double sign  = domain.mesh.face_cells[f][0] == c ? 1 : -1;
+        const double alpha = domain.open_fraction[f];
+        flux += sign * domain.mesh.face_area[f] *
+                (alpha * u.local_element(f) + (1 - alpha) * domain.solid_velocity[f]);
+      }
+    return flux;
+  }
+
+  template <int dim>
+  unsigned int
+  Projection<dim>::advance(State<dim> &state, const double dt, const Pass pass) const
+  {
+    const Mesh<dim> &mesh = domain.mesh;
+    Vector           b(rows, mesh.communicator()), q(rows, mesh.communicator());
+    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
+      if (domain.open_fraction[f] == 0)
+        state.u.local_element(f) = domain.solid_velocity[f];
+    state.u.update_ghost_values();
+    for (unsigned int i = 0; i < owned_cells.size(); ++i)
+      {
+        b.local_element(i) = -outflow(owned_cells[i], state.u);
+        if (pass == Pass::first)
+          q.local_element(i) = state.pressure.local_element(owned_cells[i]) * dt;
+      }
+    for (const Pocket &pocket : pockets)
+      {
+        double excess = 0;
+        for (const unsigned int i : pocket.rows)
+          excess += b.local_element(i);
+        excess = Utilities::MPI::sum(excess, mesh.communicator()) / pocket.size;
+        for (const unsigned int i : pocket.rows)
+          b.local_element(i) -= excess;
+      }
+    const unsigned int iterations = solver->solve(q, b);
+
+    Vector q_cell = mesh.zeros(mesh.cells);
+    for (unsigned int i = 0; i < owned_cells.size(); ++i)
+      q_cell.local_element(owned_cells[i]) = q.local_element(i);
+    q_cell.update_ghost_values();
+    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
+      if (domain.is_liquid_face(f))
+        {
+          const auto  &cells = mesh.face_cells[f];
+          const double flux  = domain.open_fraction[f] * mesh.face_area[f];
+          state.u.local_element(f) -= flux / domain.face_mass[f] *
+                                      (q_cell.local_element(cells[1]) - q_cell.local_element(cells[0]));
+        }
+    state.u.update_ghost_values();
+    for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+      state.pressure.local_element(c) =
+        (pass == Pass::first ? 0. : state.pressure.local_element(c)) + q_cell.local_element(c) / dt;
+    state.pressure.update_ghost_values();
+    return iterations;
+  }
+
+  template <int dim>
+  double
+  Projection<dim>::maximum_divergence(const State<dim> &state) const
+  {
+    double largest = 0;
+    for (const LocalIndex c : owned_cells)
+      largest = std::max(largest, std::abs(outflow(c, state.u)) / domain.mesh.cell_volume[c]);
+    return Utilities::MPI::max(largest, domain.mesh.communicator());
+  }
+
+  template class Projection<2>;
+  template class Projection<3>;
+} // namespace treacle

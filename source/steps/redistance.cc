@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/steps/redistance.h>
+#include <treacle/steps/surface_distance.h>
+
+namespace treacle
+{
+  template <int dim>
+  NodeVector<dim>
+  nodal_gradient(const Mesh<dim> &mesh, const Vector &field)
+  {
+    NodeVector<dim> gradient(mesh.nodes);
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      {
+        Tensor<1, dim> sum;
+        double         volume = 0;
+        for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+          {
+            const LocalIndex c = mesh.node_cells[k];
+            volume += mesh.cell_volume[c];
+            for (unsigned int i = 0; i <= dim; ++i)
+              sum += mesh.cell_volume[c] * field.local_element(mesh.cell_nodes[c][i]) *
+                     mesh.cell_gradients[c][i];
+          }
+        gradient.set(node, Tensor<1, dim>(sum / volume));
+      }
+    gradient.update_ghost_values();
+    return gradient;
+  }
+
+  template <int dim>
+  void
+  redistance(State<dim> &state, const double reach)
+  {
+    const Mesh<dim>              &mesh = *state.mesh;
+    const NodeVector<dim>         gradient = nodal_gradient(mesh, state.phi);
+
+    // divide by the length of the gradient first: the surface that the others
+    // measure their distance from is the one that stays
+    std::vector<unsigned char> is_cut(mesh.node_position.size(), 0);
+    for (const auto &nodes : mesh.cell_nodes)
+      {
+        unsigned int n_negative = 0;
+        for (const LocalIndex node : nodes)
+          n_negative += state.phi.local_element(node) < 0;
+        if (n_negative > 0 && n_negative <= dim)
+          for (const LocalIndex node : nodes)
+            is_cut[node] = 1;
+      }
+    Vector phi = state.phi;
+    phi.zero_out_ghost_values();
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      if (is_cut[node])
+        {
+          const double length = gradient.value(node).norm();
+          // near a kink, as where two surfaces meet, the mean says nothing
+          if (length > 0.5 && length < 2)
+            phi.local_element(node) /= length;
+        }
+    phi.update_ghost_values();
+
+    const SurfaceDistance<dim> surface(mesh, phi, reach);
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      if (!is_cut[node])
+        {
+          const double distance =
+            std::min(surface.nearest(mesh.node_position[node]).distance, reach);
+          phi.local_element(node) = phi.local_element(node) < 0 ? -distance : distance;
+        }
+    phi.update_ghost_values();
+    state.phi = phi;
+    state.phi.update_ghost_values();
+  }
+
+  template NodeVector<2>
+  nodal_gradient(const Mesh<2> &, const Vector &);
+  template NodeVector<3>
+  nodal_gradient(const Mesh<3> &, const Vector &);
+  template void
+  redistance(State<2> &, const double);
+  template void
+  redistance(State<3> &, const double);
+} // namespace treacle

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exchange.h>
+#include <treacle/steps/surface_distance.h>
+
+#include <limits>
+
+namespace treacle
+{
+  namespace bgi = boost::geometry::index;
+
+  namespace
+  {
+    /// Nearest point of a segment or triangle (Ericson 2005, section 5.1).
+    Point<2>
+    nearest_on(const std::array<Point<2>, 2> &x, const Point<2> &p)
+    {
+      const Tensor<1, 2> e = x[1] - x[0];
+      const double       l = e * e;
+      const double       t = l > 0 ? std::min(1., std::max(0., (p - x[0]) * e / l)) : 0.;
+      return x[0] + t * e;
+    }
+
+    Point<3>
+    nearest_on(const std::array<Point<3>, 3> &x, const Point<3> &p)
+    {
+      const Tensor<1, 3> ab = x[1] - x[0], ac = x[2] - x[0], ap = p - x[0];
+      const double       d1 = ab * ap, d2 = ac * ap;
+      if (d1 <= 0 && d2 <= 0)
+        return x[0];
+      const Tensor<1, 3> bp = p - x[1];
+      const double       d3 = ab * bp, d4 = ac * bp;
+      if (d3 >= 0 && d4 <= d3)
+        return x[1];
+      const double vc = d1 * d4 - d3 * d2;
+      if (vc <= 0 && d1 >= 0 && d3 <= 0)
+        return x[0] + (d1 > d3 ? d1 / (d1 - d3) : 0.) * ab;
+      const Tensor<1, 3> cp = p - x[2];
+      const double       d5 = ab * cp, d6 = ac * cp;
+      if (d6 >= 0 && d5 <= d6)
+        return x[2];
+      const double vb = d5 * d2 - d1 * d6;
+      if (vb <= 0 && d2 >= 0 && d6 <= 0)
+        return x[0] + (d2 > d6 ? d2 / (d2 - d6) : 0.) * ac;
+      const double va = d3 * d6 - d5 * d4;
+      const double d43 = d4 - d3, d56 = d5 - d6;
+      if (va <= 0 && d43 >= 0 && d56 >= 0)
+        return x[1] + (d43 + d56 > 0 ? d43 / (d43 + d56) : 0.) * (x[2] - x[1]);
+      const double sum = va + vb + vc;
+      return x[0] + (vb / sum) * ab + (vc / sum) * ac;
+    }
+
+    /// Boxes around consecutive runs of owned leaves: a few tight ones say more
+    /// than one around all.
+    template <int dim>
+    std::vector<BoundingBox<dim>>
+    covering_boxes(const Octree<dim> &octree, const double margin)
+    {
+      constexpr unsigned int        n_boxes = 64;
+      const unsigned int            n       = octree.n_owned_leaves();
+      std::vector<BoundingBox<dim>> boxes;
+      for (unsigned int k = 0; k < n_boxes; ++k)
+        {
+          const unsigned int begin = static_cast<std::uint64_t>(n) * k / n_boxes;
+          const unsigned int end   = static_cast<std::uint64_t>(n) * (k + 1) / n_boxes;
+          if (begin == end)
+            continue;
+          std::vector<Point<dim>> corners;
+          for (unsigned int l = begin; l < end; ++l)
+            {
+              const Leaf<dim>  &leaf = octree.leaves()[l];
+              LatticePoint<dim> top  = leaf.origin;
+              for (int &i : top)
+                i += leaf.size;
+              corners.push_back(octree.position(leaf.origin));
+              corners.push_back(octree.position(top));
+            }
+          boxes.emplace_back(corners);
+          boxes.back().extend(margin);
+        }
+      return boxes;
+    }
+  } // namespace
+
+  template <int dim>
+  SurfaceDistance<dim>::SurfaceDistance(const Mesh<dim> &mesh, const Vector &phi, const double reach)
+    : reach(reach)
+  {
+    const Surface<dim> surface = extract_surface(mesh, phi);
+    const MPI_Comm    &comm    = mesh.communicator();
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(comm);
+    const auto         boxes =
+      Utilities::MPI::all_gather(comm, covering_boxes(mesh.octree(), reach));
+
+    PerRank<std::array<double, dim * dim>> to_rank(boxes.size());
+    for (unsigned int k = 0; k < surface.facets.size(); ++k)
+      {
+        const Facet x = surface.facet_points(k);
+        area += area_vector<dim>(x).norm();
+        facets.push_back(x);
+        const BoundingBox<dim> box(std::vector<Point<dim>>(x.begin(), x.end()));
+        for (unsigned int r = 0; r < boxes.size(); ++r)
+          if (r != rank && std::any_of(boxes[r].begin(), boxes[r].end(), [&](const auto &other) {
+                return other.get_neighbor_type(box) != NeighborType::not_neighbors;
+              }))
+            {
+              to_rank[r].emplace_back();
+              for (unsigned int i = 0; i < dim; ++i)
+                for (unsigned int d = 0; d < dim; ++d)
+                  to_rank[r].back()[dim * i + d] = x[i][d];
+            }
+      }
+    area = Utilities::MPI::sum(area, comm);
+    for (const auto &received : send_and_receive(comm, to_rank))
+      for (const auto &numbers : received)
+        {
+          facets.emplace_back();
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int d = 0; d < dim; ++d)
+              facets.back()[i][d] = numbers[dim * i + d];
+        }
+
+    std::vector<std::pair<BoundingBox<dim>, unsigned int>> entries;
+    for (unsigned int k = 0; k < facets.size(); ++k)
+      entries.emplace_back(
+        BoundingBox<dim>(std::vector<Point<dim>>(facets[k].begin(), facets[k].end())), k);
+    tree = pack_rtree(entries);
+  }
+
+  template <int dim>
+  typename SurfaceDistance<dim>::Nearest
+  SurfaceDistance<dim>::nearest(const Point<dim> &x) const
+  {
+    Nearest best{x, std::numeric_limits<double>::infinity()};
+    double  limit = reach;
+    for (auto it = tree.qbegin(bgi::nearest(x, tree.size())); it != tree.qend(); ++it)
+      {
+        // boxes come in the order of their distance
+        if (boost::geometry::distance(x, it->first) > limit)
+          break;
+        const Point<dim> p = nearest_on(facets[it->second], x);
+        const double     d = p.distance(x);
+        if (d < limit)
+          {
+            limit = d;
+            best  = {p, d};
+          }
+      }
+    return best;
+  }
+
+  template class SurfaceDistance<2>;
+  template class SurfaceDistance<3>;
+} // namespace treacle

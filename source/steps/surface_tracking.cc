@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/fields/surface.h>
+#include <treacle/steps/redistance.h>
+#include <treacle/steps/surface_tracking.h>
+
+namespace treacle
+{
+  template <int dim>
+  void
+  SurfaceTracking<dim>::Parameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Surface tracking");
+    prm.add_parameter("Method",
+                      method,
+                      "What follows the surface between two redistancings.",
+                      Patterns::Selection("level set"));
+    prm.add_parameter("Volume correction",
+                      volume_correction,
+                      "Move the surface evenly along its normal so that the volume stays what it "
+                      "was at the start.");
+    prm.leave_subsection();
+  }
+
+  namespace
+  {
+    /// Area of phi = 0 over all ranks (m^(dim-1)).
+    template <int dim>
+    double
+    surface_area(const State<dim> &state)
+    {
+      const Surface<dim> surface = extract_surface(*state.mesh, state.phi);
+      double             area    = 0;
+      for (unsigned int k = 0; k < surface.facets.size(); ++k)
+        area += area_vector<dim>(surface.facet_points(k)).norm();
+      return Utilities::MPI::sum(area, state.mesh->communicator());
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  SurfaceTracking<dim>::advance(State<dim>       &state,
+                                const Scene<dim> &scene,
+                                const double      reach,
+                                const double      volume) const
+  {
+    redistance(state, reach);
+    if (!prm.volume_correction)
+      return;
+    // Newton's method: the derivative of the volume is the area. A lost drop
+    // must not blow up the rest in one step, hence the bound.
+    const double largest = 0.1 * state.mesh->finest_size();
+    double       offset  = 0;
+    for (unsigned int k = 0; k < 2; ++k)
+      {
+        const double area = surface_area(state);
+        if (area == 0)
+          return;
+        const double wanted = offset + (liquid_volume(state, scene) - volume) / area;
+        const double change = std::min(std::max(wanted, -largest), largest) - offset;
+        offset += change;
+        state.phi.zero_out_ghost_values();
+        state.phi.add(change);
+        state.phi.update_ghost_values();
+      }
+  }
+
+  template class SurfaceTracking<2>;
+  template class SurfaceTracking<3>;
+} // namespace treacle

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/steps/time_step.h>
+
+namespace treacle
+{
+  template <int dim>
+  void
+  TimeStep<dim>::Parameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("End time", end_time, "When the run ends (s).", Patterns::Double(0));
+    prm.add_parameter("Frame interval",
+                      frame_interval,
+                      "Time between two frames of output (s).",
+                      Patterns::Double(1e-12));
+    prm.add_parameter("Maximum CFL number",
+                      cfl,
+                      "Finest leaves that the fastest liquid crosses in a step.",
+                      Patterns::Double(1e-3, 100));
+    prm.add_parameter("Maximum time step",
+                      maximum,
+                      "Largest size of a step (s).",
+                      Patterns::Double(1e-12));
+  }
+
+  template <int dim>
+  double
+  TimeStep<dim>::next(const State<dim>        &state,
+                      const LiquidDomain<dim> &domain,
+                      const unsigned int       frame) const
+  {
+    // the speed at the end of the step counts: v dt + g dt^2 = CFL h
+    const auto      &box      = domain.mesh.octree().parameters();
+    const Point<dim> middle   = box.lower_corner + 0.5 * (box.upper_corner - box.lower_corner);
+    const double     v        = maximum_speed(state, domain);
+    const double     g        = domain.scene.gravity(middle, state.time).norm();
+    const double     distance = prm.cfl * domain.mesh.finest_size();
+    double           dt       = prm.maximum;
+    if (v + std::sqrt(v * v + 4 * g * distance) > 0)
+      dt = std::min(dt, 2 * distance / (v + std::sqrt(v * v + 4 * g * distance)));
+
+    // equal steps to the frame
+    const double left = frame_time(frame) - state.time;
+    return left / std::max(1., std::ceil(left / dt - 1e-6));
+  }
+
+  template <int dim>
+  double
+  maximum_speed(const State<dim> &state, const LiquidDomain<dim> &domain)
+  {
+    double largest = 0;
+    for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
+      if (domain.is_active_node[node])
+        largest = std::max(largest, state.v.value(node).norm());
+    return Utilities::MPI::max(largest, domain.mesh.communicator());
+  }
+
+  template class TimeStep<2>;
+  template class TimeStep<3>;
+  template double
+  maximum_speed(const State<2> &, const LiquidDomain<2> &);
+  template double
+  maximum_speed(const State<3> &, const LiquidDomain<3> &);
+} // namespace treacle
