@@ -57,7 +57,7 @@ class Run:
         return numpy.array([float(x) for x in re.split(r"[,;]", self.get(name))])
 
     def time(self, frame):
-        """Time of a frame in s, from frames.pvd, else from the frame interval."""
+        """Time of a frame in s, from mesh.pvd, else from the frame interval."""
         return self._times.get(frame, frame * float(self.get("Frame interval")))
 
     def surface(self, frame):
@@ -86,7 +86,7 @@ class Run:
                 yield shape, a, b, self.parameters.get(f"Solid {k}/Invert") == "true"
 
     def _read_times(self):
-        path = self.directory / "frames" / "frames.pvd"
+        path = self.directory / "frames" / "mesh.pvd"
         try:
             sets = ElementTree.parse(path).iter("DataSet")
             return {int(re.search(r"_(\d+)\.", s.get("file"))[1]): float(s.get("timestep"))

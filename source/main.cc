@@ -39,17 +39,21 @@ namespace
   read_command_line(const int argc, const char *const *argv)
   {
     Options  options;
-    CLI::App app("Treacle simulates viscous liquids with free surfaces on adaptive meshes.",
-                 "treacle");
+    CLI::App app(
+      "Treacle simulates viscous liquids with free surfaces on adaptive meshes.",
+      "treacle");
     app.add_option("FILE", options.file, "Parameter file")->option_text("FILE.prm");
     app.add_option("--set", options.settings, "Set a parameter; may be repeated")
       ->allow_extra_args(false)
       ->option_text("'Section/Name=value'");
     app.add_flag("--resume", options.resume, "Continue from the last checkpoint");
-    app.add_flag("--check", options.check, "Read the parameters and the scene, then stop");
-    app.add_flag("--print-parameters",
-                 options.print_parameters,
-                 "Print all parameters with their documentation; with FILE, as it sets them");
+    app.add_flag("--check",
+                 options.check,
+                 "Read the parameters and the scene, then stop");
+    app.add_flag(
+      "--print-parameters",
+      options.print_parameters,
+      "Print all parameters with their documentation; with FILE, as it sets them");
     app.set_version_flag("--version", "Treacle " TREACLE_VERSION);
     try
       {
@@ -64,10 +68,12 @@ namespace
       }
     catch (const CLI::ParseError &error)
       {
-        throw UserError(std::string(error.what()) + " (treacle --help lists the options)");
+        throw UserError(std::string(error.what()) +
+                        " (treacle --help lists the options)");
       }
-    require(!options.file.empty() || options.print_parameters,
-            "There is no parameter file: treacle FILE.prm (treacle --help lists the options)");
+    require(
+      !options.file.empty() || options.print_parameters,
+      "There is no parameter file: treacle FILE.prm (treacle --help lists the options)");
     return options;
   }
 
@@ -80,7 +86,8 @@ namespace
     parameters.add_parameters(prm, file.count("Liquid"), file.count("Solid"));
     file.parse(prm);
     std::ostringstream text;
-    prm.print_parameters(text, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
+    prm.print_parameters(text,
+                         ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
     if (options.print_parameters)
       {
         if (is_first_rank())
@@ -122,7 +129,9 @@ namespace
     own->print_info(info);
     std::string place;
     std::smatch match;
-    if (std::regex_search(what, match, std::regex("in line <([0-9]+)> of file <([^>]*)>")))
+    if (std::regex_search(what,
+                          match,
+                          std::regex("in line <([0-9]+)> of file <([^>]*)>")))
       place = " in " + match[2].str() + ":" + match[1].str();
     return "internal error" + place + ": " +
            std::regex_replace(Utilities::trim(info.str()), std::regex("\\s+"), " ");

@@ -24,7 +24,12 @@ namespace treacle
       const long total = std::lround(seconds);
       char       text[32];
       if (total >= 3600)
-        std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", total / 3600, total / 60 % 60, total % 60);
+        std::snprintf(text,
+                      sizeof text,
+                      "%ld:%02ld:%02ld",
+                      total / 3600,
+                      total / 60 % 60,
+                      total % 60);
       else
         std::snprintf(text, sizeof text, "%ld:%02ld", total / 60, total % 60);
       return text;
@@ -39,8 +44,8 @@ namespace treacle
         return true;
       // mpirun gives its ranks a pseudo-terminal, wherever its own output goes
       const std::string of_parent = "/proc/" + std::to_string(getppid()) + "/fd/1";
-      const int         file      = open(of_parent.c_str(), O_WRONLY | O_NOCTTY | O_APPEND);
-      const bool        result    = file >= 0 && isatty(file);
+      const int         file   = open(of_parent.c_str(), O_WRONLY | O_NOCTTY | O_APPEND);
+      const bool        result = file >= 0 && isatty(file);
       if (file >= 0)
         close(file);
       return result;
@@ -92,7 +97,8 @@ namespace treacle
     if (done > first_done)
       {
         const double elapsed = std::chrono::duration<double>(now - first_time).count();
-        std::cout << ", " << clock_time(elapsed * (1 - done) / (done - first_done)) << " left";
+        std::cout << ", " << clock_time(elapsed * (1 - done) / (done - first_done))
+                  << " left";
       }
     std::cout << std::flush;
     has_progress = true;

@@ -52,12 +52,25 @@ namespace treacle
       return a.second > b.second;
     });
     char text[128];
-    std::snprintf(text, sizeof text, "%-32s %8s %12s %7s\n", "Section", "calls", "wall time", "share");
+    std::snprintf(text,
+                  sizeof text,
+                  "%-32s %8s %12s %7s\n",
+                  "Section",
+                  "calls",
+                  "wall time",
+                  "share");
     std::string table = text;
-    const auto  add   = [&](const std::string &name, const unsigned int n, const double time) {
-      std::snprintf(text, sizeof text, "%-32s %8u %10.2f s %5.1f %%\n", name.c_str(), n, time, 100 * time / total);
-      table += text;
-    };
+    const auto  add =
+      [&](const std::string &name, const unsigned int n, const double time) {
+        std::snprintf(text,
+                      sizeof text,
+                      "%-32s %8u %10.2f s %5.1f %%\n",
+                      name.c_str(),
+                      n,
+                      time,
+                      100 * time / total);
+        table += text;
+      };
     for (const auto &[name, time] : sorted)
       add(name, calls.at(name), time);
     add("Total", 1, total);
@@ -65,7 +78,8 @@ namespace treacle
     Utilities::System::MemoryStats memory;
     Utilities::System::get_memory_stats(memory);
     const double peak = memory.VmHWM / 1024.; // MiB
-    std::snprintf(text, sizeof text,
+    std::snprintf(text,
+                  sizeof text,
                   "Peak memory: %.0f MiB in all, %.0f MiB on the largest of %u ranks",
                   Utilities::MPI::sum(peak, comm),
                   Utilities::MPI::max(peak, comm),

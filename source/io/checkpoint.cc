@@ -4,6 +4,7 @@
 #include <treacle/base/exchange.h>
 #include <treacle/base/files.h>
 #include <treacle/io/checkpoint.h>
+#include <treacle/io/checkpoint_info.h>
 #include <treacle/io/table_file.h>
 
 #include <filesystem>
@@ -54,51 +55,6 @@ namespace treacle
       fs::remove_all(directory, ignored);
     }
 
-    /// What the info file says, in lines "name = value".
-    class Info
-    {
-    public:
-      Info(const std::string &text, const std::string &path)
-        : path(path)
-      {
-        std::istringstream lines(text);
-        for (std::string line; std::getline(lines, line);)
-          if (const auto equals = line.find(" = "); equals != std::string::npos)
-            values[line.substr(0, equals)] = line.substr(equals + 3);
-      }
-
-      std::string
-      get(const std::string &name) const
-      {
-        const auto it = values.find(name);
-        require(it != values.end(), "The file \"" + path + "\" does not say \"" + name + "\".");
-        return it->second;
-      }
-
-      /// All numbers under names that begin with @p prefix, without it.
-      std::map<std::string, double>
-      scalars(const std::string &prefix) const
-      {
-        std::map<std::string, double> result;
-        for (const auto &[name, value] : values)
-          if (name.compare(0, prefix.size(), prefix) == 0)
-            result[name.substr(prefix.size())] = std::strtod(value.c_str(), nullptr);
-        return result;
-      }
-
-      void
-      require_same(const std::string &name, const std::string &parameter, const std::string &value) const
-      {
-        require(get(name) == value,
-                "The run cannot be resumed: the checkpoint has " + parameter + " = " + get(name) +
-                  ", the parameter file has " + value + ". Restore it, or start a new run.");
-      }
-
-    private:
-      std::string                        path;
-      std::map<std::string, std::string> values;
-    };
-
     const std::string scalar_prefix = "Scalar ";
 
     template <int dim>
@@ -138,8 +94,8 @@ namespace treacle
 
     template <int dim>
     void
-    write_info(std::ostream                                   &out,
-               const State<dim>                               &state,
+    write_info(std::ostream                             &out,
+               const State<dim>                         &state,
                const typename Checkpoint<dim>::Progress &progress)
     {
       const Mesh<dim> &mesh = *state.mesh;
@@ -150,8 +106,8 @@ namespace treacle
           << "\nFrame = " << progress.frame << "\nCells = " << mesh.cells->size()
           << "\nLower corner = " << to_text(prm.lower_corner)
           << "\nUpper corner = " << to_text(prm.upper_corner)
-          << "\nRoot cells = " << prm.root_cells << "\nSurface level = " << prm.surface_level
-          << '\n';
+          << "\nRoot cells = " << prm.root_cells
+          << "\nSurface level = " << prm.surface_level << '\n';
       for (const auto &[name, value] : progress.scalars)
         out << scalar_prefix << name << " = " << value << '\n';
     }
@@ -179,9 +135,10 @@ namespace treacle
 
     std::vector<double> rows;
     rows.reserve(row_size<dim> * state.mesh->n_owned_cells());
-    for_each_number<dim>(state, [&](const Vector &v, const LocalIndex i, const LocalIndex) {
-      rows.push_back(v.local_element(i));
-    });
+    for_each_number<dim>(state,
+                         [&](const Vector &v, const LocalIndex i, const LocalIndex) {
+                           rows.push_back(v.local_element(i));
+                         });
     TableFile<double>::write(comm, fresh + "/cells", rows);
     replace_file(comm, info_file(fresh), [&](std::ostream &out) {
       write_info<dim>(out, state, progress);
@@ -199,15 +156,17 @@ namespace treacle
           discard(old);
       }
     throw_first(comm,
-                error ? "The checkpoint \"" + path + "\" cannot be replaced: " + error.message() + "." :
+                error ? "The checkpoint \"" + path +
+                          "\" cannot be replaced: " + error.message() + "." :
                         std::string());
   }
 
   template <int dim>
   std::shared_ptr<const Octree<dim>>
-  Checkpoint<dim>::load_octree(const std::string                                    &directory,
-                               const typename Octree<dim>::Parameters               &parameters,
-                               const std::function<unsigned int(const Leaf<dim> &)> &weight) const
+  Checkpoint<dim>::load_octree(
+    const std::string                                    &directory,
+    const typename Octree<dim>::Parameters               &parameters,
+    const std::function<unsigned int(const Leaf<dim> &)> &weight) const
   {
     std::size_t n = 0;
     if (Utilities::MPI::this_mpi_process(comm) == 0)
@@ -218,7 +177,8 @@ namespace treacle
           n = 0; // the reader will complain
       }
     n = Utilities::MPI::broadcast(comm, n);
-    const std::vector<int> numbers = TableFile<int>::read(comm, directory + "/leaves", 0, n);
+    const std::vector<int> numbers =
+      TableFile<int>::read(comm, directory + "/leaves", 0, n);
     std::unordered_map<VertexKey, unsigned int> level_at; // by a leaf's lowest corner
     for (std::size_t i = 0; i + dim < n; i += dim + 1)
       {
@@ -242,10 +202,10 @@ namespace treacle
   }
 
   template <int dim>
-  State<dim>
-  Checkpoint<dim>::load(const typename Octree<dim>::Parameters               &parameters,
-                        const std::function<unsigned int(const Leaf<dim> &)> &weight,
-                        Progress                                             &progress) const
+  std::pair<State<dim>, typename Checkpoint<dim>::Progress>
+  Checkpoint<dim>::load(
+    const typename Octree<dim>::Parameters               &parameters,
+    const std::function<unsigned int(const Leaf<dim> &)> &weight) const
   {
     // the newest that is complete; between two renames it is not at its place
     std::string directory, text;
@@ -262,40 +222,52 @@ namespace treacle
             "The run cannot be resumed: there is no checkpoint \"" + path +
               "\". Start it without --resume.");
 
-    const Info info(text, info_file(directory));
+    const CheckpointInfo info(text, info_file(directory));
     info.require_same("Format", "the format", "1");
     info.require_same("Dimension", "Dimension", std::to_string(dim));
-    info.require_same("Lower corner", "Domain/Lower corner", to_text(parameters.lower_corner));
-    info.require_same("Upper corner", "Domain/Upper corner", to_text(parameters.upper_corner));
-    info.require_same("Root cells", "Mesh/Root cells", std::to_string(parameters.root_cells));
-    info.require_same("Surface level", "Mesh/Surface level", std::to_string(parameters.surface_level));
+    info.require_same("Lower corner",
+                      "Domain/Lower corner",
+                      to_text(parameters.lower_corner));
+    info.require_same("Upper corner",
+                      "Domain/Upper corner",
+                      to_text(parameters.upper_corner));
+    info.require_same("Root cells",
+                      "Mesh/Root cells",
+                      std::to_string(parameters.root_cells));
+    info.require_same("Surface level",
+                      "Mesh/Surface level",
+                      std::to_string(parameters.surface_level));
 
-    const auto mesh = std::make_shared<const Mesh<dim>>(load_octree(directory, parameters, weight));
+    const auto mesh =
+      std::make_shared<const Mesh<dim>>(load_octree(directory, parameters, weight));
     require(info.get("Cells") == std::to_string(mesh->cells->size()),
             "The checkpoint \"" + directory + "\" is damaged: its leaves do not make " +
               info.get("Cells") + " cells.");
-    const auto rows = TableFile<double>::read(comm,
-                                              directory + "/cells",
-                                              row_size<dim> * mesh->cells->local_range().first,
-                                              row_size<dim> * mesh->n_owned_cells());
+    const auto rows =
+      TableFile<double>::read(comm,
+                              directory + "/cells",
+                              row_size<dim> * mesh->cells->local_range().first,
+                              row_size<dim> * mesh->n_owned_cells());
     State<dim> state(mesh);
     state.time = std::stod(info.get("Time"));
     state.step = std::stoul(info.get("Step"));
     auto next  = rows.begin();
     // every owned node and face is one of an owned cell
-    for_each_number<dim>(state, [&](Vector &v, const LocalIndex i, const LocalIndex n_owned) {
-      if (i < n_owned)
-        v.local_element(i) = *next;
-      ++next;
-    });
+    for_each_number<dim>(state,
+                         [&](Vector &v, const LocalIndex i, const LocalIndex n_owned) {
+                           if (i < n_owned)
+                             v.local_element(i) = *next;
+                           ++next;
+                         });
     state.phi.update_ghost_values();
     state.u.update_ghost_values();
     state.v.update_ghost_values();
     state.pressure.update_ghost_values();
 
+    Progress progress;
     progress.frame   = std::stoul(info.get("Frame"));
     progress.scalars = info.scalars(scalar_prefix);
-    return state;
+    return {std::move(state), std::move(progress)};
   }
 
   template <int dim>

@@ -11,10 +11,11 @@ namespace treacle
     template <int dim>
     struct Sums
     {
-      double                  volume = 0, mass = 0;
-      std::array<double, dim> first_moment{}; // about the box's centre, as the momenta are
-      double                  potential_energy = 0, dissipation = 0;
-      Motion<dim>             of_faces, of_nodes;
+      double volume = 0, mass = 0;
+      std::array<double, dim>
+                  first_moment{}; // about the box's centre, as the momenta are
+      double      potential_energy = 0, dissipation = 0;
+      Motion<dim> of_faces, of_nodes;
     };
 
     /// Extents as maxima: of -x and x, and of the speed.
@@ -50,7 +51,10 @@ namespace treacle
 
     template <int dim>
     void
-    sum_cells(const State<dim> &state, const LiquidDomain<dim> &domain, const Point<dim> &origin, Sums<dim> &sums)
+    sum_cells(const State<dim>        &state,
+              const LiquidDomain<dim> &domain,
+              const Point<dim>        &origin,
+              Sums<dim>               &sums)
     {
       const Mesh<dim> &mesh = domain.mesh;
       for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
@@ -67,7 +71,8 @@ namespace treacle
 
             Tensor<2, dim> gradient;
             for (unsigned int i = 0; i <= dim; ++i)
-              gradient += outer_product(state.v.value(mesh.cell_nodes[c][i]), mesh.cell_gradients[c][i]);
+              gradient += outer_product(state.v.value(mesh.cell_nodes[c][i]),
+                                        mesh.cell_gradients[c][i]);
             const SymmetricTensor<2, dim> strain_rate = symmetrize(gradient);
             sums.dissipation +=
               2 * domain.viscosity[c] * volume * strain_rate * strain_rate;
@@ -76,7 +81,10 @@ namespace treacle
 
     template <int dim>
     void
-    sum_motion(const State<dim> &state, const LiquidDomain<dim> &domain, const Point<dim> &origin, Sums<dim> &sums)
+    sum_motion(const State<dim>        &state,
+               const LiquidDomain<dim> &domain,
+               const Point<dim>        &origin,
+               Sums<dim>               &sums)
     {
       const Mesh<dim> &mesh = domain.mesh;
       for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
@@ -84,7 +92,9 @@ namespace treacle
           {
             const double u = state.u.local_element(f);
             sums.of_faces.kinetic_energy += 0.5 * mass * u * u;
-            add_momentum<dim>(sums.of_faces, mesh.face_centre[f] - origin, mass * u * mesh.face_normal[f]);
+            add_momentum<dim>(sums.of_faces,
+                              mesh.face_centre[f] - origin,
+                              mass * u * mesh.face_normal[f]);
           }
       for (LocalIndex n = 0; n < mesh.n_owned_nodes(); ++n)
         if (const double mass = domain.node_mass[n]; mass > 0)
@@ -161,13 +171,15 @@ namespace treacle
   Measures<dim>
   measure(const State<dim> &state, const LiquidDomain<dim> &domain)
   {
-    const MPI_Comm  &comm   = domain.mesh.communicator();
-    const Point<dim> origin = domain.scene.lower_corner() +
-                              (domain.scene.upper_corner() - domain.scene.lower_corner()) / 2;
+    const MPI_Comm  &comm = domain.mesh.communicator();
+    const Point<dim> origin =
+      domain.scene.lower_corner() +
+      (domain.scene.upper_corner() - domain.scene.lower_corner()) / 2;
     Sums<dim> sums;
     sum_cells(state, domain, origin, sums);
     sum_motion(state, domain, origin, sums);
-    MPI_Allreduce(MPI_IN_PLACE, &sums, sizeof sums / sizeof(double), MPI_DOUBLE, MPI_SUM, comm);
+    MPI_Allreduce(
+      MPI_IN_PLACE, &sums, sizeof sums / sizeof(double), MPI_DOUBLE, MPI_SUM, comm);
     Maxima<dim> most = maxima(state, domain);
     MPI_Allreduce(MPI_IN_PLACE, most.data(), most.size(), MPI_DOUBLE, MPI_MAX, comm);
 

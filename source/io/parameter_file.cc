@@ -115,7 +115,9 @@ namespace treacle
 
     /// The names that @p prm declares in a subsection, and those of subsections.
     std::string
-    names_in(const ParameterHandler &prm, const std::vector<std::string> &path, const Line::Kind kind)
+    names_in(const ParameterHandler         &prm,
+             const std::vector<std::string> &path,
+             const Line::Kind                kind)
     {
       std::ostringstream text;
       prm.print_parameters(text, ParameterHandler::ShortText);
@@ -173,8 +175,8 @@ namespace treacle
         open.pop_back();
     require(open.empty(),
             open.empty() ? "" :
-                           place(open.back().first) + ": the subsection \"" + open.back().name +
-                             "\" is not closed by \"end\".");
+                           place(open.back().first) + ": the subsection \"" +
+                             open.back().name + "\" is not closed by \"end\".");
     for (const std::string &setting : settings)
       append(setting);
     scan();
@@ -186,12 +188,14 @@ namespace treacle
   ParameterFile::append(const std::string &setting)
   {
     const auto equals = setting.find('=');
-    require(equals != std::string::npos && setting.find_first_of("\n\\#") == std::string::npos,
+    require(equals != std::string::npos &&
+              setting.find_first_of("\n\\#") == std::string::npos,
             "--set '" + setting + "' must have the form 'Section/Name=value'.");
     std::vector<std::string> path =
       Utilities::split_string_list(setting.substr(0, equals), '/');
     const std::string entry = path.empty() ? "" : path.back();
-    require(!entry.empty(), "--set '" + setting + "' must have the form 'Section/Name=value'.");
+    require(!entry.empty(),
+            "--set '" + setting + "' must have the form 'Section/Name=value'.");
     path.pop_back();
     for (const std::string &section : path)
       text += "subsection " + section + '\n';
@@ -205,7 +209,8 @@ namespace treacle
   void
   ParameterFile::scan()
   {
-    std::map<std::string, std::map<unsigned int, unsigned int>> lines; // by name and number
+    std::map<std::string, std::map<unsigned int, unsigned int>>
+                     lines; // by name and number
     const std::regex numbered("(Liquid|Solid|Emitter) ([0-9]{1,6})");
     std::smatch      match;
     for (const Line &line : read_lines(text))
@@ -214,10 +219,12 @@ namespace treacle
       else if (line.kind == Line::set && line.name == "Dimension")
         {
           require(line.value == "2" || line.value == "3",
-                  place(line.first) + ": Dimension is \"" + line.value + "\", but must be 2 or 3.");
+                  place(line.first) + ": Dimension is \"" + line.value +
+                    "\", but must be 2 or 3.");
           dim = std::stoul(line.value);
         }
-      else if (line.kind == Line::subsection && std::regex_match(line.name, match, numbered))
+      else if (line.kind == Line::subsection &&
+               std::regex_match(line.name, match, numbered))
         lines[match[1]][std::stoul(match[2])] = line.first;
 
     for (const auto &[name, line_of] : lines)
@@ -227,8 +234,9 @@ namespace treacle
           const std::string  missing =
             number == 0 ? "" : "no \"" + name + " " + std::to_string(expected) + "\"; ";
           require(number == expected,
-                  place(line) + ": there is a \"" + name + " " + std::to_string(number) + "\", but " +
-                    missing + "these subsections must be numbered 1, 2, ... without a gap.");
+                  place(line) + ": there is a \"" + name + " " + std::to_string(number) +
+                    "\", but " + missing +
+                    "these subsections must be numbered 1, 2, ... without a gap.");
         }
   }
 
@@ -252,7 +260,10 @@ namespace treacle
       {
         std::ostringstream message;
         exception.print_info(message);
-        explain(std::regex_replace(Utilities::trim(message.str()), std::regex("\\s+"), " "), prm);
+        explain(std::regex_replace(Utilities::trim(message.str()),
+                                   std::regex("\\s+"),
+                                   " "),
+                prm);
       }
   }
 
@@ -264,29 +275,37 @@ namespace treacle
     if (!std::regex_match(message, match, std::regex("Line <([0-9]+)> of file <(.*)")) ||
         match[2].str().compare(0, name.size(), name) != 0) // an included file
       throw UserError(name + ": " + message);
-    const unsigned int number  = std::stoul(match[1]);
+    const unsigned int number = std::stoul(match[1]);
     const std::string  problem =
       std::regex_replace(match[2].str().substr(name.size()), std::regex("^>?:? "), "");
     for (const Line &line : read_lines(text))
       if (line.first <= number && number <= line.last)
         {
-          const std::string where = line.path.empty() ? "outside subsections" :
-                                                        "in the subsection \"" + join(line.path, "/") + "\"";
+          const std::string where =
+            line.path.empty() ? "outside subsections" :
+                                "in the subsection \"" + join(line.path, "/") + "\"";
           if (line.kind == Line::subsection)
-            throw UserError(place(number) + ": there is no subsection \"" + line.name + "\" " + where +
-                            "; there are: " + names_in(prm, line.path, Line::subsection) + ".");
+            throw UserError(
+              place(number) + ": there is no subsection \"" + line.name + "\" " + where +
+              "; there are: " + names_in(prm, line.path, Line::subsection) + ".");
           std::smatch value;
           if (line.kind == Line::set &&
-              std::regex_search(problem, value, std::regex("does not match the given pattern: (.*)")))
-            throw UserError(place(number) + ": \"" + line.value + "\" is no value for \"" + line.name +
-                            "\" " + where + "; allowed: " + in_words(value[1]));
+              std::regex_search(problem,
+                                value,
+                                std::regex("does not match the given pattern: (.*)")))
+            throw UserError(place(number) + ": \"" + line.value +
+                            "\" is no value for \"" + line.name + "\" " + where +
+                            "; allowed: " + in_words(value[1]));
           if (line.kind == Line::set && problem.find("No entry") != std::string::npos)
-            throw UserError(place(number) + ": there is no parameter \"" + line.name + "\" " + where +
+            throw UserError(place(number) + ": there is no parameter \"" + line.name +
+                            "\" " + where +
                             "; there are: " + names_in(prm, line.path, Line::set) + ".");
-          if (line.kind == Line::other && problem.find("include") == std::string::npos)
-            throw UserError(place(number) + ": \"" + line.name +
-                            "\" is neither \"set Name = value\", \"subsection Name\" nor the \"end\" "
-                            "of a subsection.");
+          if (line.kind == Line::other &&
+              problem.find("cannot be opened") == std::string::npos)
+            throw UserError(
+              place(number) + ": \"" + line.name +
+              "\" is neither \"set Name = value\", \"subsection Name\" nor the \"end\" "
+              "of a subsection.");
         }
     throw UserError(place(number) + ": " + problem);
   }

@@ -23,6 +23,15 @@ namespace treacle
       return dim == 2 ? "Liquid volume (m^2)" : "Liquid volume (m^3)";
     }
 
+    /// As the table shows it: a resumed run knows the first volume from there.
+    double
+    rounded(const double value)
+    {
+      char text[64];
+      std::snprintf(text, sizeof text, "%.11e", value);
+      return std::strtod(text, nullptr);
+    }
+
     using Row = std::vector<double>;
 
     /// The numbers of a line of @p n columns that has come to its end.
@@ -61,10 +70,14 @@ namespace treacle
       /// One column a component, with its axis; one without if there is only one.
       template <typename Components>
       void
-      vector(const std::string &name, const std::string &unit, const Components &values, const unsigned int n)
+      vector(const std::string &name,
+             const std::string &unit,
+             const Components  &values,
+             const unsigned int n)
       {
         for (unsigned int d = 0; d < n; ++d)
-          number(name + (n == 1 ? "" : std::string(" ") + "xyz"[d]) + " (" + unit + ")", values[d]);
+          number(name + (n == 1 ? "" : std::string(" ") + "xyz"[d]) + " (" + unit + ")",
+                 values[d]);
       }
 
       void
@@ -72,11 +85,15 @@ namespace treacle
       {
         const auto name = [&](const std::string &quantity) {
           return prefix.empty() ? quantity :
-                                  prefix + static_cast<char>(std::tolower(quantity[0])) + quantity.substr(1);
+                                  prefix + static_cast<char>(std::tolower(quantity[0])) +
+                                    quantity.substr(1);
         };
         number(name("Kinetic energy (J)"), motion.kinetic_energy);
         vector(name("Linear momentum"), "kg m/s", motion.linear, dim);
-        vector(name("Angular momentum"), "kg m^2/s", motion.angular, Motion<dim>::n_rotations);
+        vector(name("Angular momentum"),
+               "kg m^2/s",
+               motion.angular,
+               Motion<dim>::n_rotations);
       }
 
     private:
@@ -94,7 +111,7 @@ namespace treacle
   void
   Statistics<dim>::resume(const unsigned int step)
   {
-    std::string        header, kept, error;
+    std::string           header, kept, error;
     std::array<double, 2> restored{}; // volume of the first row, rebuilds
     if (Utilities::MPI::this_mpi_process(comm) == 0)
       {
@@ -119,8 +136,8 @@ namespace treacle
               kept += line + '\n';
             }
         if (kept.empty())
-          error = "The run cannot be resumed: the table \"" + path + "\" has no row before step " +
-                  std::to_string(step) + ".";
+          error = "The run cannot be resumed: the table \"" + path +
+                  "\" has no row before step " + std::to_string(step) + ".";
         else
           error = replace_file(path, [&](std::ostream &out) { out << header << kept; });
       }
@@ -139,8 +156,9 @@ namespace treacle
                            const StepInfo          &info)
   {
     const Measures<dim> measures = measure(state, domain);
+    const double        volume   = rounded(measures.volume);
     if (!has_first)
-      first_volume = measures.volume;
+      first_volume = volume;
     has_first = true;
     n_rebuilds += info.rebuilt;
 
@@ -152,7 +170,7 @@ namespace treacle
     add.count("Nodes", domain.mesh.nodes->size());
     add.count("Faces", domain.mesh.faces->size());
     add.number(volume_name<dim>(), measures.volume);
-    add.number("Volume drift", first_volume > 0 ? measures.volume / first_volume - 1 : 0);
+    add.number("Volume drift", first_volume > 0 ? volume / first_volume - 1 : 0);
     add.vector("Centre of mass", "m", measures.centre_of_mass, dim);
     add.vector("Liquid minimum", "m", measures.lower, dim);
     add.vector("Liquid maximum", "m", measures.upper, dim);

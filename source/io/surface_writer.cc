@@ -56,8 +56,9 @@ namespace treacle
       vertices.reserve(surface.vertices.size());
       for (unsigned int i = 0; i < surface.vertices.size(); ++i)
         {
-          const auto &[a, b, t]          = surface.vertices[i];
-          const Tensor<1, dim> velocity = (1 - t) * state.v.value(a) + t * state.v.value(b);
+          const auto &[a, b, t] = surface.vertices[i];
+          const Tensor<1, dim> velocity =
+            (1 - t) * state.v.value(a) + t * state.v.value(b);
           Vertex vertex{state.mesh->node_key[a], state.mesh->node_key[b], {}};
           for (unsigned int d = 0; d < dim; ++d)
             {
@@ -95,8 +96,12 @@ namespace treacle
       for (const auto &of_rank : vertices)
         result.vertices.insert(result.vertices.end(), of_rank.begin(), of_rank.end());
       std::sort(result.vertices.begin(), result.vertices.end());
-      const auto is_same = [](const Vertex &p, const Vertex &q) { return !(p < q) && !(q < p); };
-      result.vertices.erase(std::unique(result.vertices.begin(), result.vertices.end(), is_same),
+      const auto is_same = [](const Vertex &p, const Vertex &q) {
+        return !(p < q) && !(q < p);
+      };
+      result.vertices.erase(std::unique(result.vertices.begin(),
+                                        result.vertices.end(),
+                                        is_same),
                             result.vertices.end());
       for (unsigned int r = 0; r < n_ranks; ++r)
         {
@@ -131,7 +136,8 @@ namespace treacle
             << "\nproperty list uchar int vertex_indices\n";
       out << "end_header\n";
       for (const Vertex &vertex : surface.vertices)
-        out.write(reinterpret_cast<const char *>(vertex.values.data()), sizeof vertex.values);
+        out.write(reinterpret_cast<const char *>(vertex.values.data()),
+                  sizeof vertex.values);
       for (const Facet<dim> &facet : surface.facets)
         {
           if (dim == 3)
@@ -146,8 +152,8 @@ namespace treacle
     {
       out << std::setprecision(9); // all of a float
       for (const Vertex &vertex : surface.vertices)
-        out << "v " << vertex.values[0] << ' ' << vertex.values[1] << ' ' << vertex.values[2]
-            << '\n';
+        out << "v " << vertex.values[0] << ' ' << vertex.values[1] << ' '
+            << vertex.values[2] << '\n';
       for (const Facet<dim> &facet : surface.facets)
         {
           out << (dim == 2 ? 'l' : 'f');
@@ -175,11 +181,12 @@ namespace treacle
         }
       const std::string element = dim == 2 ? "Lines" : "Polys";
       AppendedData      data;
-      std::string body = "<Piece NumberOfPoints=\"" + std::to_string(surface.vertices.size()) +
-                         "\" NumberOf" + element + "=\"" +
-                         std::to_string(surface.facets.size()) + "\">\n";
+      std::string       body =
+        "<Piece NumberOfPoints=\"" + std::to_string(surface.vertices.size()) +
+        "\" NumberOf" + element + "=\"" + std::to_string(surface.facets.size()) + "\">\n";
       body += "<PointData Vectors=\"velocity\">\n" + data.array("velocity", 3, velocity) +
-              "</PointData>\n<Points>\n" + data.array("Points", 3, points) + "</Points>\n";
+              "</PointData>\n<Points>\n" + data.array("Points", 3, points) +
+              "</Points>\n";
       body += "<" + element + ">\n" + data.array("connectivity", 1, connectivity);
       body += data.array("offsets", 1, offsets) + "</" + element + ">\n</Piece>\n";
       data.write_file(out, "PolyData", body);

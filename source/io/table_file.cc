@@ -33,7 +33,10 @@ namespace treacle
     /// Collective; @p use does the work and returns MPI's code.
     template <typename Use>
     void
-    with_file(const MPI_Comm &comm, const std::string &path, const int mode, const Use &use)
+    with_file(const MPI_Comm    &comm,
+              const std::string &path,
+              const int          mode,
+              const Use         &use)
     {
       MPI_File file;
       check(comm, MPI_File_open(comm, path.c_str(), mode, MPI_INFO_NULL, &file), path);
@@ -45,7 +48,9 @@ namespace treacle
 
   template <typename T>
   void
-  TableFile<T>::write(const MPI_Comm &comm, const std::string &path, const std::vector<T> &part)
+  TableFile<T>::write(const MPI_Comm       &comm,
+                      const std::string    &path,
+                      const std::vector<T> &part)
   {
     std::uint64_t       offset = 0;
     const std::uint64_t n      = part.size();
@@ -73,7 +78,9 @@ namespace treacle
       return code;
     });
     throw_first(comm,
-                static_cast<std::size_t>(n_read) == n ? "" : "The file \"" + path + "\" is too short.");
+                static_cast<std::size_t>(n_read) == n ?
+                  "" :
+                  "The file \"" + path + "\" is too short.");
     return part;
   }
 

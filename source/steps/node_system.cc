@@ -130,17 +130,16 @@ namespace treacle
             const double diagonal = blocks[0][a][a] > 0 ? blocks[0][a][a] : 1;
             indices.assign(1, row);
             values.assign(1, diagonal);
-            if (!is_constrained(node, a))
-              for (unsigned int k = 0; k < columns.size(); ++k)
-                for (unsigned int b = 0; b < dim; ++b)
-                  if (is_constrained(columns[k], b))
-                    result.shift.local_element(dim * i + a) -=
-                      blocks[k][a][b] * domain.prescribed[columns[k]][b];
-                  else if (k != 0 || a != b)
-                    {
-                      indices.push_back(dim * number[columns[k]] + b);
-                      values.push_back(blocks[k][a][b]);
-                    }
+            for (unsigned int k = 0; k < columns.size() && !is_constrained(node, a); ++k)
+              for (unsigned int b = 0; b < dim; ++b)
+                if (is_constrained(columns[k], b))
+                  result.shift.local_element(dim * i + a) -=
+                    blocks[k][a][b] * domain.prescribed[columns[k]][b];
+                else if (k != 0 || a != b)
+                  {
+                    indices.push_back(dim * number[columns[k]] + b);
+                    values.push_back(blocks[k][a][b]);
+                  }
             result.matrix->set(row, indices.size(), indices.data(), values.data(), false);
           }
       }

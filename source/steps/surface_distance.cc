@@ -126,6 +126,8 @@ namespace treacle
       entries.emplace_back(
         BoundingBox<dim>(std::vector<Point<dim>>(facets[k].begin(), facets[k].end())), k);
     tree = pack_rtree(entries);
+    if (!tree.empty())
+      boost::geometry::convert(tree.bounds(), bounds);
   }
 
   template <int dim>
@@ -133,19 +135,26 @@ namespace treacle
   SurfaceDistance<dim>::nearest(const Point<dim> &x) const
   {
     Nearest best{x, std::numeric_limits<double>::infinity()};
-    double  limit = reach;
-    for (auto it = tree.qbegin(bgi::nearest(x, tree.size())); it != tree.qend(); ++it)
+    if (tree.empty() || boost::geometry::distance(x, bounds) > reach)
+      return best;
+    // boxes in the order of their distance, more of them until no other can hold
+    // a nearer facet (an incremental query costs far more)
+    std::vector<std::pair<BoundingBox<dim>, unsigned int>> boxes;
+    for (unsigned int k = 8;; k *= 8)
       {
-        // boxes come in the order of their distance
-        if (boost::geometry::distance(x, it->first) > limit)
-          break;
-        const Point<dim> p = nearest_on(facets[it->second], x);
-        const double     d = p.distance(x);
-        if (d < limit)
+        boxes.clear();
+        tree.query(bgi::nearest(x, k), std::back_inserter(boxes));
+        double farthest_box = 0;
+        for (const auto &[box, facet] : boxes)
           {
-            limit = d;
-            best  = {p, d};
+            farthest_box     = std::max(farthest_box, boost::geometry::distance(x, box));
+            const Point<dim> p = nearest_on(facets[facet], x);
+            const double     d = p.distance(x);
+            if (d < best.distance && d < reach)
+              best = {p, d};
           }
+        if (boxes.size() < k || farthest_box >= std::min(best.distance, reach))
+          break;
       }
     return best;
   }

@@ -28,8 +28,10 @@ namespace tests
   ball_mesh()
   {
     typename Octree<dim>::Parameters parameters;
-    parameters.upper_corner  = diagonal_point<dim>(1);
-    parameters.surface_level = dim == 2 ? 5 : 3;
+    parameters.upper_corner   = diagonal_point<dim>(1);
+    parameters.interior_level = 0;
+    parameters.air_level      = 0;
+    parameters.surface_level  = dim == 2 ? 5 : 3;
     return parameters;
   }
 

@@ -7,10 +7,10 @@
 #include <treacle/base/exceptions.h>
 #include <treacle/io/checkpoint.h>
 
+#include <filesystem>
+
 #include "../tests.h"
 #include "ball.h"
-
-#include <filesystem>
 
 using namespace treacle;
 
@@ -30,7 +30,9 @@ difference(const State<dim> &loaded, const MPI_Comm &comm)
   double           result = 0;
   const auto       add    = [&](const treacle::Vector &a, const treacle::Vector &b) {
     // ghosts too
-    for (unsigned int i = 0; i < a.get_partitioner()->locally_owned_size() + a.get_partitioner()->n_ghost_indices(); ++i)
+    for (unsigned int i = 0; i < a.get_partitioner()->locally_owned_size() +
+                                   a.get_partitioner()->n_ghost_indices();
+         ++i)
       result = std::max(result, std::abs(a.local_element(i) - b.local_element(i)));
   };
   add(loaded.phi, saved.phi);
@@ -58,14 +60,13 @@ template <int dim>
 void
 load(const MPI_Comm &comm)
 {
-  typename Checkpoint<dim>::Progress progress;
-  const State<dim>                   state =
-    checkpoint<dim>(comm).load(tests::ball_mesh<dim>(), tests::leaf_weight<dim>, progress);
+  const auto [state, progress] =
+    checkpoint<dim>(comm).load(tests::ball_mesh<dim>(), tests::leaf_weight<dim>);
   const double worst = difference<dim>(state, comm);
   tests::out() << dim << "D: time " << state.time << ", step " << state.step << ", frame "
                << progress.frame << ", scalar "
-               << (progress.scalars.at("first volume") == 1. / 3 ? "ok" : "WRONG") << ", state "
-               << (worst == 0 ? "ok" : "WRONG") << std::endl;
+               << (progress.scalars.at("first volume") == 1. / 3 ? "ok" : "WRONG")
+               << ", state " << (worst == 0 ? "ok" : "WRONG") << std::endl;
 }
 
 template <int dim>
@@ -74,8 +75,7 @@ refuse(const MPI_Comm &comm, const typename Octree<dim>::Parameters &parameters)
 {
   try
     {
-      typename Checkpoint<dim>::Progress progress;
-      checkpoint<dim>(comm).load(parameters, tests::leaf_weight<dim>, progress);
+      checkpoint<dim>(comm).load(parameters, tests::leaf_weight<dim>);
       tests::out() << "no error" << std::endl;
     }
   catch (const UserError &error)
@@ -87,7 +87,7 @@ refuse(const MPI_Comm &comm, const typename Octree<dim>::Parameters &parameters)
 void
 check_errors(const MPI_Comm &comm)
 {
-  namespace fs = std::filesystem;
+  namespace fs             = std::filesystem;
   auto parameters          = tests::ball_mesh<2>();
   parameters.surface_level = 7;
   refuse<2>(comm, parameters);
@@ -115,8 +115,8 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const int                        rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-  MPI_Comm                         two;
+  const int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  MPI_Comm  two;
   MPI_Comm_split(MPI_COMM_WORLD, rank < 2 ? 0 : 1, rank, &two);
   if (rank < 2)
     {

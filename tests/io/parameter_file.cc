@@ -14,8 +14,8 @@ using namespace treacle;
 void
 declare(ParameterHandler &prm)
 {
-  static double       time    = 1;
-  static unsigned int level   = 5;
+  static double       time  = 1;
+  static unsigned int level = 5;
   static Point<2>     corner;
   static std::string  format = "ply";
   prm.add_parameter("End time", time, "", Patterns::Double(0));
@@ -36,8 +36,8 @@ check(const std::string &text, const std::vector<std::string> &settings = {})
   try
     {
       const ParameterFile file(MPI_COMM_WORLD, "case.prm", settings);
-      tests::out() << "dimension " << file.dimension() << ", liquids " << file.count("Liquid")
-                   << ", solids " << file.count("Solid");
+      tests::out() << "dimension " << file.dimension() << ", liquids "
+                   << file.count("Liquid") << ", solids " << file.count("Solid");
       ParameterHandler prm;
       declare(prm);
       for (const char *name : {"Liquid", "Solid"})
@@ -62,10 +62,12 @@ main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
 
-  check("set Dimension = 2 # flat\nsubsection Liquid 1\nend\nsubsection Liquid 2\nend\nsubsection Solid 1\nend",
-        {"End time=3", "Mesh/Surface level = 7", "Liquid 2/Radius=2"});
+  check(
+    "set Dimension = 2 # flat\nsubsection Liquid 1\nend\nsubsection Liquid 2\nend\nsubsection Solid 1\nend",
+    {"End time=3", "Mesh/Surface level = 7", "Liquid 2/Radius=2"});
   check("");
-  check("set End time = \\\n  2\nsubsection Mesh\n  set Surface level = 6\nend\n", {"Liquid 1/Radius=3"});
+  check("set End time = \\\n  2\nsubsection Mesh\n  set Surface level = 6\nend\n",
+        {"Liquid 1/Radius=3"});
 
   check("set Dimension = 4\n");
   check("set End time = 1\n\nset Dimension = 2", {"Dimension=1"});

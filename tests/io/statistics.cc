@@ -6,10 +6,10 @@
 
 #include <treacle/io/statistics.h>
 
+#include <sstream>
+
 #include "../tests.h"
 #include "ball.h"
-
-#include <sstream>
 
 using namespace treacle;
 
@@ -50,19 +50,34 @@ check(const MPI_Comm &comm, const bool with_names)
     show_file(name, false);
   for (const char *axis : {" x", " y", " z"})
     if (dim == 3 || axis[1] < 'z')
-      for (const char *column : {"Centre of mass", "Liquid minimum", "Liquid maximum", "Linear momentum", "Nodal linear momentum"})
+      for (const char *column : {"Centre of mass",
+                                 "Liquid minimum",
+                                 "Liquid maximum",
+                                 "Linear momentum",
+                                 "Nodal linear momentum"})
         {
-          const bool        is_momentum = std::string(column).find("momentum") != std::string::npos;
-          const std::string unit        = is_momentum ? " (kg m/s)" : " (m)";
+          const bool is_momentum =
+            std::string(column).find("momentum") != std::string::npos;
+          const std::string unit = is_momentum ? " (kg m/s)" : " (m)";
           const double      x    = statistics.last(column + std::string(axis) + unit);
           tests::out() << column << axis << ' ' << (std::abs(x) < 1e-10 ? 0 : x) << '\n';
         }
-  for (const std::string &column : std::vector<std::string>{
-         "Time step number", "Cells", dim == 2 ? "Liquid volume (m^2)" : "Liquid volume (m^3)", "Volume drift",
-        "Potential energy (J)", "Kinetic energy (J)", "Nodal kinetic energy (J)",
-        dim == 2 ? "Angular momentum (kg m^2/s)" : "Angular momentum z (kg m^2/s)",
-        dim == 2 ? "Nodal angular momentum (kg m^2/s)" : "Nodal angular momentum z (kg m^2/s)",
-        "Viscous dissipation (W)", "Maximum speed (m/s)", "Rebuilds", "Viscosity iterations"})
+  for (const std::string &column :
+       std::vector<std::string>{"Time step number",
+                                "Cells",
+                                dim == 2 ? "Liquid volume (m^2)" : "Liquid volume (m^3)",
+                                "Volume drift",
+                                "Potential energy (J)",
+                                "Kinetic energy (J)",
+                                "Nodal kinetic energy (J)",
+                                dim == 2 ? "Angular momentum (kg m^2/s)" :
+                                           "Angular momentum z (kg m^2/s)",
+                                dim == 2 ? "Nodal angular momentum (kg m^2/s)" :
+                                           "Nodal angular momentum z (kg m^2/s)",
+                                "Viscous dissipation (W)",
+                                "Maximum speed (m/s)",
+                                "Rebuilds",
+                                "Viscosity iterations"})
     tests::out() << column << ' ' << statistics.last(column) << '\n';
 
   // killed in the middle of a row, resumed after step 2
@@ -73,13 +88,14 @@ check(const MPI_Comm &comm, const bool with_names)
   resumed.resume(2);
   state.phi.add(0.01);
   state.phi.update_ghost_values();
-  state.time = 10;
-  state.step = 3;
+  state.time   = 10;
+  state.step   = 3;
   info.rebuilt = false;
   resumed.add_row(state, LiquidDomain<dim>(state, scene, 0.01), info);
   if (is_first)
     show_file(name, true);
-  tests::out() << "drift " << resumed.last("Volume drift") << ", rebuilds " << resumed.last("Rebuilds") << '\n';
+  tests::out() << "drift " << resumed.last("Volume drift") << ", rebuilds "
+               << resumed.last("Rebuilds") << '\n';
 
   // without liquid
   state.phi = 1.;

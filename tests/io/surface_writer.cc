@@ -6,11 +6,11 @@
 
 #include <treacle/io/surface_writer.h>
 
-#include "../tests.h"
-#include "ball.h"
-
 #include <map>
 #include <sstream>
+
+#include "../tests.h"
+#include "ball.h"
 
 using namespace treacle;
 
@@ -33,12 +33,12 @@ template <int dim>
 Ply
 read_ply(const std::string &bytes)
 {
-  std::size_t  n_vertices = 0, n_facets = 0;
-  const auto   number = [&](const std::string &word) {
+  std::size_t n_vertices = 0, n_facets = 0;
+  const auto  number = [&](const std::string &word) {
     return std::stoul(bytes.substr(bytes.find(word) + word.size()));
   };
-  n_vertices = number("element vertex ");
-  n_facets   = number(dim == 2 ? "element edge " : "element face ");
+  n_vertices    = number("element vertex ");
+  n_facets      = number(dim == 2 ? "element edge " : "element face ");
   const char *p = bytes.data() + bytes.find("end_header\n") + 11;
   Ply         ply;
   ply.vertices.resize(n_vertices);
@@ -59,9 +59,9 @@ template <int dim>
 void
 describe(const Ply &ply)
 {
-  double                            area = 0, worst = 0;
-  Tensor<1, dim>                    sum;
-  std::map<std::vector<int>, int>   borders; // +1 and -1 for its two directions
+  double                          area = 0, worst = 0;
+  Tensor<1, dim>                  sum;
+  std::map<std::vector<int>, int> borders; // +1 and -1 for its two directions
   for (const auto &facet : ply.facets)
     {
       std::array<Point<dim>, dim> x;
@@ -82,12 +82,15 @@ describe(const Ply &ply)
           }
     }
   for (const auto &v : ply.vertices)
-    worst = std::max({worst, std::abs(v[3] - (-2 * (v[1] - 0.5) + 0.25)), std::abs(v[4] - 2 * (v[0] - 0.5))});
-  const auto n_open =
-    std::count_if(borders.begin(), borders.end(), [](const auto &b) { return b.second != 0; });
-  tests::out() << dim << "D: " << ply.vertices.size() << " vertices, " << ply.facets.size()
-               << " facets, " << n_open << " open, area " << area << ", sum "
-               << (sum.norm() < 1e-5 ? "0" : "not 0") << ", velocity "
+    worst = std::max({worst,
+                      std::abs(v[3] - (-2 * (v[1] - 0.5) + 0.25)),
+                      std::abs(v[4] - 2 * (v[0] - 0.5))});
+  const auto n_open = std::count_if(borders.begin(), borders.end(), [](const auto &b) {
+    return b.second != 0;
+  });
+  tests::out() << dim << "D: " << ply.vertices.size() << " vertices, "
+               << ply.facets.size() << " facets, " << n_open << " open, area " << area
+               << ", sum " << (sum.norm() < 1e-5 ? "0" : "not 0") << ", velocity "
                << (worst < 1e-6 ? "ok" : "WRONG") << std::endl;
 }
 
@@ -102,19 +105,22 @@ check(const MPI_Comm &comm)
   const std::string name = "out/frames/surface_0000" + std::to_string(dim);
   if (Utilities::MPI::this_mpi_process(comm) == 0)
     {
-      const std::string bytes = read(name + ".ply") + read(name + ".obj") + read(name + ".vtp");
+      const std::string bytes =
+        read(name + ".ply") + read(name + ".obj") + read(name + ".vtp");
       if (of_one_rank.empty())
         {
           of_one_rank = bytes;
           describe<dim>(read_ply<dim>(read(name + ".ply")));
         }
-      tests::out() << (bytes == of_one_rank ? "same files" : "DIFFERENT FILES") << std::endl;
+      tests::out() << (bytes == of_one_rank ? "same files" : "DIFFERENT FILES")
+                   << std::endl;
     }
   state.phi = 1;
   state.phi.update_ghost_values();
   SurfaceWriter<dim>({"ply"}).write(state, "out", 0);
   if (Utilities::MPI::this_mpi_process(comm) == 0)
-    tests::out() << "empty: " << read_ply<dim>(read("out/frames/surface_00000.ply")).facets.size()
+    tests::out() << "empty: "
+                 << read_ply<dim>(read("out/frames/surface_00000.ply")).facets.size()
                  << std::endl;
 }
 

@@ -35,7 +35,9 @@ namespace treacle
     /// The element that stands for the array in the markup.
     template <typename T>
     std::string
-    array(const std::string &name, const unsigned int n_components, const std::vector<T> &values)
+    array(const std::string    &name,
+          const unsigned int    n_components,
+          const std::vector<T> &values)
     {
       const std::uint64_t n_bytes = values.size() * sizeof(T);
       const std::string   element =

@@ -50,10 +50,9 @@ namespace treacle
 
     /// @p parameters and @p weight as for the Octree of a run from the start; the
     /// box and the finest level must be those of the saved one.
-    State<dim>
+    std::pair<State<dim>, Progress>
     load(const typename Octree<dim>::Parameters               &parameters,
-         const std::function<unsigned int(const Leaf<dim> &)> &weight,
-         Progress                                             &progress) const;
+         const std::function<unsigned int(const Leaf<dim> &)> &weight) const;
 
     /// A new run starts: what an older one left must not be resumed.
     void
@@ -67,7 +66,7 @@ namespace treacle
 
     MPI_Comm     comm;
     unsigned int interval;
-    std::string  path; ///< of the directory; with .new and .old while one replaces another
+    std::string path; ///< of the directory; with .new and .old while one replaces another
   };
 } // namespace treacle
 

@@ -16,20 +16,20 @@ namespace treacle
 
     double                          kinetic_energy = 0; ///< J
     std::array<double, dim>         linear{};           ///< kg m/s
-    std::array<double, n_rotations> angular{};          ///< about the centre of mass, kg m^2/s
+    std::array<double, n_rotations> angular{}; ///< about the centre of mass, kg m^2/s
   };
 
   /// Integrals over the liquid, and its extent.
   template <int dim>
   struct Measures
   {
-    double         volume = 0;         ///< m^dim
-    Point<dim>     centre_of_mass;     ///< m; not a number without liquid
-    Point<dim>     lower, upper;       ///< smallest box (m); not a number without liquid
-    double         potential_energy = 0; ///< from the box's lower corner, J
-    double         dissipation      = 0; ///< by viscosity, W
-    double         maximum_speed    = 0; ///< of nodes in the liquid, m/s
-    Motion<dim>    of_faces, of_nodes;
+    double      volume = 0;           ///< m^dim
+    Point<dim>  centre_of_mass;       ///< m; not a number without liquid
+    Point<dim>  lower, upper;         ///< smallest box (m); not a number without liquid
+    double      potential_energy = 0; ///< from the box's lower corner, J
+    double      dissipation      = 0; ///< by viscosity, W
+    double      maximum_speed    = 0; ///< of nodes in the liquid, m/s
+    Motion<dim> of_faces, of_nodes;
   };
 
   /// Collective.

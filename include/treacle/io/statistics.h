@@ -11,7 +11,7 @@ namespace treacle
   /// What a step reports beside the state it leaves.
   struct StepInfo
   {
-    double       dt                    = 0; ///< s
+    double       dt                   = 0; ///< s
     unsigned int viscosity_iterations = 0;
     unsigned int pressure_iterations  = 0;
     bool         rebuilt              = false; ///< the mesh is new
@@ -44,7 +44,9 @@ namespace treacle
 
     /// Collective; throws a UserError on all ranks if the file cannot be written.
     void
-    add_row(const State<dim> &state, const LiquidDomain<dim> &domain, const StepInfo &info);
+    add_row(const State<dim>        &state,
+            const LiquidDomain<dim> &domain,
+            const StepInfo          &info);
 
     /// Of the last row, on all ranks, by the name of its column.
     double

@@ -31,7 +31,9 @@ namespace treacle
     /// `<directory>/frames/surface_00000.ply`, say. Throws a UserError on all
     /// ranks where that fails. Collective.
     void
-    write(const State<dim> &state, const std::string &directory, const unsigned int frame) const;
+    write(const State<dim>  &state,
+          const std::string &directory,
+          const unsigned int frame) const;
 
   private:
     std::string format;

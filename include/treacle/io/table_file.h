@@ -23,7 +23,10 @@ namespace treacle
 
     /// @p n numbers behind the first @p offset; may differ between ranks.
     static std::vector<T>
-    read(const MPI_Comm &comm, const std::string &path, const std::size_t offset, const std::size_t n);
+    read(const MPI_Comm    &comm,
+         const std::string &path,
+         const std::size_t  offset,
+         const std::size_t  n);
   };
 } // namespace treacle
 

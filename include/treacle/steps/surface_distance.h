@@ -41,6 +41,7 @@ namespace treacle
 
     std::vector<Facet>                             facets;
     RTree<std::pair<BoundingBox<dim>, unsigned int>> tree;
+    BoundingBox<dim>                               bounds; ///< of all facets
     double                                         area = 0;
   };
 } // namespace treacle
