@@ -83,6 +83,7 @@ namespace treacle
     const unsigned int n = mesh.cell_nodes.size();
     liquid_volume.assign(n, 0);
     liquid_centre.resize(n);
+    dual_distance.resize(n);
     is_pressure_cell.assign(n, 0);
     is_active_cell.assign(n, 0);
     viscosity.assign(n, 0);
@@ -96,11 +97,11 @@ namespace treacle
         const Simplex<dim>  x       = mesh.cell_vertices(c);
         const Moments<dim>  moments = liquid_moments<dim>(x, phi, psi);
         const bool          is_open = *std::max_element(psi.begin(), psi.end()) > 0;
-        double phi_dual = phi[0];
+        dual_distance[c]            = phi[0];
         for (unsigned int i = 0; i <= dim; ++i)
-          phi_dual += phi[i] * (mesh.cell_gradients[c][i] * (mesh.cell_dual[c] - x[0]));
+          dual_distance[c] += phi[i] * (mesh.cell_gradients[c][i] * (mesh.cell_dual[c] - x[0]));
         liquid_volume[c]    = moments.volume;
-        is_pressure_cell[c] = is_open && phi_dual < 0;
+        is_pressure_cell[c] = is_open && dual_distance[c] < 0;
         is_active_cell[c]   = is_pressure_cell[c] || moments.volume > 0;
         if (!is_active_cell[c])
           continue;
@@ -122,15 +123,6 @@ namespace treacle
     open_fraction.assign(n, 0);
     theta.assign(n, 0);
     solid_velocity.assign(n, 0);
-
-    const auto phi_dual = [&](const LocalIndex c) {
-      const Point<dim> &x0  = mesh.node_position[mesh.cell_nodes[c][0]];
-      const auto        phi = mesh.values(c, state.phi);
-      double            r   = phi[0];
-      for (unsigned int i = 0; i <= dim; ++i)
-        r += phi[i] * (mesh.cell_gradients[c][i] * (mesh.cell_dual[c] - x0));
-      return r;
-    };
 
     Vector      mass = mesh.zeros(mesh.faces), part = mesh.zeros(mesh.faces);
     std::string error;
@@ -161,8 +153,8 @@ namespace treacle
           t = 1;
         else if (is_pressure_cell[i] || is_pressure_cell[j])
           {
-            const double a      = phi_dual(is_pressure_cell[i] ? i : j);
-            const double b      = std::max(0., phi_dual(is_pressure_cell[i] ? j : i));
+            const double a      = dual_distance[is_pressure_cell[i] ? i : j];
+            const double b      = std::max(0., dual_distance[is_pressure_cell[i] ? j : i]);
             const double actual = a / (a - b);
             t                   = std::max(actual, minimum_theta);
             n_clamped += actual < minimum_theta;

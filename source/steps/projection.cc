@@ -223,13 +223,19 @@ namespace treacle
     for (unsigned int i = 0; i < owned_cells.size(); ++i)
       q_cell.local_element(owned_cells[i]) = q.local_element(i);
     q_cell.update_ghost_values();
+    const Vector q_beyond = extended(q_cell);
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       if (domain.is_liquid_face(f))
         {
-          const auto  &cells = mesh.face_cells[f];
-          const double flux  = domain.open_fraction[f] * mesh.face_area[f];
-          state.u.local_element(f) -= flux / domain.face_mass[f] *
-                                      (q_cell.local_element(cells[1]) - q_cell.local_element(cells[0]));
+          const auto &cells = mesh.face_cells[f];
+          // faces of wet cells that touch no pressure cell are no unknowns of the
+          // projection, but must not fall freely through liquid at rest
+          const bool    is_unknown = domain.is_pressure_cell[cells[0]] || domain.is_pressure_cell[cells[1]];
+          const Vector &p          = is_unknown ? q_cell : q_beyond;
+          const double  k          = domain.open_fraction[f] * mesh.face_area[f] /
+                           domain.face_mass[f] * (is_unknown ? 1 : domain.theta[f]);
+          state.u.local_element(f) -=
+            k * (p.local_element(cells[1]) - p.local_element(cells[0]));
         }
     state.u.update_ghost_values();
     for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
@@ -237,6 +243,55 @@ namespace treacle
         (pass == Pass::first ? 0. : state.pressure.local_element(c)) + q_cell.local_element(c) / dt;
     state.pressure.update_ghost_values();
     return iterations;
+  }
+
+  template <int dim>
+  Vector
+  Projection<dim>::extended(const Vector &q) const
+  {
+    // least squares for the slope q / phi over the pressure cells around a node,
+    // then around a cell
+    const Mesh<dim> &mesh = domain.mesh;
+    Vector           q_phi = mesh.zeros(mesh.nodes), phi_phi = mesh.zeros(mesh.nodes);
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+        if (const LocalIndex c = mesh.node_cells[k]; domain.is_pressure_cell[c])
+          {
+            const double phi = domain.dual_distance[c];
+            q_phi.local_element(node) += q.local_element(c) * phi;
+            phi_phi.local_element(node) += phi * phi;
+          }
+    q_phi.update_ghost_values();
+    phi_phi.update_ghost_values();
+    // nodes without a pressure cell around them ask their neighbours
+    Vector q_phi_far = q_phi, phi_phi_far = phi_phi;
+    q_phi_far.zero_out_ghost_values();
+    phi_phi_far.zero_out_ghost_values();
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      if (phi_phi.local_element(node) == 0)
+        for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+          for (const LocalIndex other : mesh.cell_nodes[mesh.node_cells[k]])
+            {
+              q_phi_far.local_element(node) += q_phi.local_element(other);
+              phi_phi_far.local_element(node) += phi_phi.local_element(other);
+            }
+    q_phi_far.update_ghost_values();
+    phi_phi_far.update_ghost_values();
+    Vector result = q;
+    result.zero_out_ghost_values();
+    for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+      if (!domain.is_pressure_cell[c])
+        {
+          double a = 0, b = 0;
+          for (const LocalIndex node : mesh.cell_nodes[c])
+            {
+              a += q_phi_far.local_element(node);
+              b += phi_phi_far.local_element(node);
+            }
+          result.local_element(c) = b > 0 ? a / b * domain.dual_distance[c] : 0.;
+        }
+    result.update_ghost_values();
+    return result;
   }
 
   template <int dim>

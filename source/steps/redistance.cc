@@ -6,25 +6,37 @@
 
 namespace treacle
 {
+  namespace
+  {
+    /// Volume-weighted mean of the gradient over the cells around an owned node
+    /// that @p counts holds for.
+    template <int dim, typename Counts>
+    Tensor<1, dim>
+    gradient_at(const Mesh<dim> &mesh, const Vector &field, const LocalIndex node, const Counts &counts)
+    {
+      Tensor<1, dim> sum;
+      double         volume = 0;
+      for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+        {
+          const LocalIndex c = mesh.node_cells[k];
+          if (!counts(c))
+            continue;
+          volume += mesh.cell_volume[c];
+          for (unsigned int i = 0; i <= dim; ++i)
+            sum += mesh.cell_volume[c] * field.local_element(mesh.cell_nodes[c][i]) *
+                   mesh.cell_gradients[c][i];
+        }
+      return sum / volume;
+    }
+  } // namespace
+
   template <int dim>
   NodeVector<dim>
   nodal_gradient(const Mesh<dim> &mesh, const Vector &field)
   {
     NodeVector<dim> gradient(mesh.nodes);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      {
-        Tensor<1, dim> sum;
-        double         volume = 0;
-        for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
-          {
-            const LocalIndex c = mesh.node_cells[k];
-            volume += mesh.cell_volume[c];
-            for (unsigned int i = 0; i <= dim; ++i)
-              sum += mesh.cell_volume[c] * field.local_element(mesh.cell_nodes[c][i]) *
-                     mesh.cell_gradients[c][i];
-          }
-        gradient.set(node, Tensor<1, dim>(sum / volume));
-      }
+      gradient.set(node, gradient_at(mesh, field, node, [](const LocalIndex) { return true; }));
     gradient.update_ghost_values();
     return gradient;
   }
@@ -34,18 +46,21 @@ namespace treacle
   redistance(State<dim> &state, const double reach)
   {
     const Mesh<dim>              &mesh = *state.mesh;
-    const NodeVector<dim>         gradient = nodal_gradient(mesh, state.phi);
 
     // divide by the length of the gradient first: the surface that the others
-    // measure their distance from is the one that stays
+    // measure their distance from is the one that stays. Only cut cells tell the
+    // gradient, for near walls the distance of other nodes is that from the
+    // surface's edge
+    std::vector<unsigned char> is_cut_cell(mesh.cell_nodes.size(), 0);
     std::vector<unsigned char> is_cut(mesh.node_position.size(), 0);
-    for (const auto &nodes : mesh.cell_nodes)
+    for (LocalIndex c = 0; c < mesh.cell_nodes.size(); ++c)
       {
         unsigned int n_negative = 0;
-        for (const LocalIndex node : nodes)
+        for (const LocalIndex node : mesh.cell_nodes[c])
           n_negative += state.phi.local_element(node) < 0;
-        if (n_negative > 0 && n_negative <= dim)
-          for (const LocalIndex node : nodes)
+        is_cut_cell[c] = n_negative > 0 && n_negative <= dim;
+        if (is_cut_cell[c])
+          for (const LocalIndex node : mesh.cell_nodes[c])
             is_cut[node] = 1;
       }
     Vector phi = state.phi;
@@ -53,7 +68,9 @@ namespace treacle
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       if (is_cut[node])
         {
-          const double length = gradient.value(node).norm();
+          const double length =
+            gradient_at(mesh, state.phi, node, [&](const LocalIndex c) { return is_cut_cell[c]; })
+              .norm();
           // near a kink, as where two surfaces meet, the mean says nothing
           if (length > 0.5 && length < 2)
             phi.local_element(node) /= length;

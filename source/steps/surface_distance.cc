@@ -86,6 +86,7 @@ namespace treacle
   template <int dim>
   SurfaceDistance<dim>::SurfaceDistance(const Mesh<dim> &mesh, const Vector &phi, const double reach)
     : reach(reach)
+    , box({mesh.octree().parameters().lower_corner, mesh.octree().parameters().upper_corner})
   {
     const Surface<dim> surface = extract_surface(mesh, phi);
     const MPI_Comm    &comm    = mesh.communicator();
@@ -99,10 +100,10 @@ namespace treacle
         const Facet x = surface.facet_points(k);
         area += area_vector<dim>(x).norm();
         facets.push_back(x);
-        const BoundingBox<dim> box(std::vector<Point<dim>>(x.begin(), x.end()));
+        const BoundingBox<dim> around(std::vector<Point<dim>>(x.begin(), x.end()));
         for (unsigned int r = 0; r < boxes.size(); ++r)
           if (r != rank && std::any_of(boxes[r].begin(), boxes[r].end(), [&](const auto &other) {
-                return other.get_neighbor_type(box) != NeighborType::not_neighbors;
+                return other.get_neighbor_type(around) != NeighborType::not_neighbors;
               }))
             {
               to_rank[r].emplace_back();
@@ -140,23 +141,49 @@ namespace treacle
     // boxes in the order of their distance, more of them until no other can hold
     // a nearer facet (an incremental query costs far more)
     std::vector<std::pair<BoundingBox<dim>, unsigned int>> boxes;
+    unsigned int                                           best_facet = 0;
     for (unsigned int k = 8;; k *= 8)
       {
         boxes.clear();
         tree.query(bgi::nearest(x, k), std::back_inserter(boxes));
         double farthest_box = 0;
-        for (const auto &[box, facet] : boxes)
+        for (const auto &[around, facet] : boxes)
           {
-            farthest_box     = std::max(farthest_box, boost::geometry::distance(x, box));
+            farthest_box     = std::max(farthest_box, boost::geometry::distance(x, around));
             const Point<dim> p = nearest_on(facets[facet], x);
             const double     d = p.distance(x);
             if (d < best.distance && d < reach)
-              best = {p, d};
+              {
+                best       = {p, d};
+                best_facet = facet;
+              }
           }
         if (boxes.size() < k || farthest_box >= std::min(best.distance, reach))
           break;
       }
+    if (std::isfinite(best.distance))
+      best.distance = distance_beyond_box(x, best.point, facets[best_facet]);
     return best;
+  }
+
+  template <int dim>
+  double
+  SurfaceDistance<dim>::distance_beyond_box(const Point<dim> &x,
+                                            const Point<dim> &nearest,
+                                            const Facet      &facet) const
+  {
+    const double actual    = x.distance(nearest);
+    const double tolerance = 1e-12 * box.side_length(0);
+    bool         on_box    = false;
+    for (unsigned int d = 0; d < dim; ++d)
+      on_box = on_box || std::abs(nearest[d] - box.lower_bound(d)) < tolerance ||
+               std::abs(nearest[d] - box.upper_bound(d)) < tolerance;
+    const Tensor<1, dim> a = area_vector<dim>(facet);
+    if (!on_box || a.norm() == 0)
+      return actual;
+    const double     above = (x - nearest) * a / a.norm();
+    const Point<dim> foot  = x - above * a / a.norm();
+    return box.point_inside(foot, 0) ? actual : std::abs(above);
   }
 
   template class SurfaceDistance<2>;

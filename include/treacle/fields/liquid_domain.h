@@ -33,6 +33,7 @@ namespace treacle
     // -- cells --
     std::vector<double>         liquid_volume;    ///< of {phi<0} outside solids (m^dim)
     std::vector<Point<dim>>     liquid_centre;    ///< its centroid, where it is not empty
+    std::vector<double>         dual_distance;    ///< phi(o), extended linearly (m)
     std::vector<unsigned char>  is_pressure_cell; ///< phi(o) < 0
     std::vector<unsigned char>  is_active_cell;   ///< wet or pressure cell
     std::vector<double>         viscosity;        ///< mean over the liquid part (Pa s)

@@ -49,6 +49,11 @@ namespace treacle
     double
     outflow(const LocalIndex cell, const Vector &u) const;
 
+    /// dt p at all dual centres: beyond the surface the liquid's pressure goes on
+    /// in proportion to phi, as the ghost fluid has it across a face.
+    Vector
+    extended(const Vector &q) const;
+
     void
     find_closed_pockets();
 

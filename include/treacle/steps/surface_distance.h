@@ -11,6 +11,8 @@
 namespace treacle
 {
   /// Nearest points on the surface phi = 0 of all ranks, within a given reach.
+  /// Where the surface ends on the box it goes on beyond it as a plane, so that
+  /// the distance from a flat surface is linear at a wall too.
   template <int dim>
   class SurfaceDistance
   {
@@ -20,7 +22,7 @@ namespace treacle
 
     struct Nearest
     {
-      Point<dim> point;
+      Point<dim> point;    ///< in the box
       double     distance; ///< m, not signed; infinite if beyond the reach
     };
 
@@ -38,6 +40,11 @@ namespace treacle
 
   private:
     using Facet = std::array<Point<dim>, dim>;
+
+    double
+    distance_beyond_box(const Point<dim> &x, const Point<dim> &nearest, const Facet &facet) const;
+
+    const BoundingBox<dim> box;
 
     std::vector<Facet>                             facets;
     RTree<std::pair<BoundingBox<dim>, unsigned int>> tree;
