@@ -41,6 +41,21 @@ namespace treacle
     return gradient;
   }
 
+  namespace
+  {
+    /// The facets of a curved surface are chords: distances from them are off by
+    /// h^2/8R, and the mean gradient is shorter than 1 by as much. Where phi is a
+    /// distance well enough it is left alone, or the error would add up (a disc of
+    /// radius 6.4 h that moves by 2.9 h in 20 steps: volume +5e-3, not 2e-4).
+    constexpr double kept_layers = 3;
+
+    bool
+    is_unit(const double length)
+    {
+      return std::abs(length - 1) < 0.1;
+    }
+  } // namespace
+
   template <int dim>
   void
   redistance(State<dim> &state, const double reach)
@@ -72,14 +87,16 @@ namespace treacle
             gradient_at(mesh, state.phi, node, [&](const LocalIndex c) { return is_cut_cell[c]; })
               .norm();
           // near a kink, as where two surfaces meet, the mean says nothing
-          if (length > 0.5 && length < 2)
+          if (length > 0.5 && length < 2 && !is_unit(length))
             phi.local_element(node) /= length;
         }
     phi.update_ghost_values();
 
     const SurfaceDistance<dim> surface(mesh, phi, reach);
+    const NodeVector<dim>      gradient = nodal_gradient(mesh, state.phi);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      if (!is_cut[node])
+      if (!is_cut[node] && !(std::abs(phi.local_element(node)) < kept_layers * mesh.finest_size() &&
+                             is_unit(gradient.value(node).norm())))
         {
           const double distance =
             std::min(surface.nearest(mesh.node_position[node]).distance, reach);
