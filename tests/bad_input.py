@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) the Treacle authors
+"""What a user gets wrong gives one clear message, exit code 1, and no half-written
+file, on one rank and on two. Usage: bad_input.py path/to/treacle"""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+GOOD = {
+    "Dimension": "2", "End time": "0.02", "Maximum time step": "0.01",
+    "Frame interval": "0.02", "Output directory": "run",
+    "Mesh/Surface level": "4", "Mesh/Interior level": "2", "Mesh/Air level": "2",
+    "Liquid 1/Shape": "sphere", "Liquid 1/Radius": "0.2",
+}
+
+# name, changes, what the message must hold
+CASES = [
+    ("unknown parameter", {"Mesh/Surfce level": "4"}, r"Surfce level"),
+    ("value outside its pattern", {"Mesh/Surface level": "many"}, r"Surface level"),
+    ("no such choice", {"Viscosity/Mapping": "node FLAP"}, r"Mapping"),
+    ("wrong number of components", {"Liquid 1/Velocity": "1; 2; 3"}, r"Liquid 1/Velocity"),
+    ("syntax of an expression", {"Material/Viscosity": "1 +"}, r"Material/Viscosity"),
+    ("missing triangle mesh", {"Dimension": "3", "Liquid 1/Shape": "triangle mesh",
+                               "Liquid 1/File": "nowhere.off"}, r"nowhere\.off"),
+    ("open triangle mesh", {"Dimension": "3", "Liquid 1/Shape": "triangle mesh",
+                            "Liquid 1/File": "open.off"}, r"open\.off.*closed"),
+    ("box that cubes cannot tile", {"Domain/Upper corner": "1, 1.3"}, r"cubes cannot tile.*Root cells"),
+    ("liquid outside the box", {"Liquid 1/Centre": "3, 3"}, r"Liquid 1 lies outside the box"),
+    ("liquid inside a solid", {"Solid 1/Shape": "sphere", "Solid 1/Radius": "0.4"},
+     r"Liquid 1 lies inside a solid"),
+    ("negative viscosity", {"Material/Viscosity": "-1"}, r"Material/Viscosity is -1"),
+    ("viscosity that becomes negative", {"Material/Viscosity": "1 - 80 * t"},
+     r"Material/Viscosity is -.* at x = .* t = "),
+    ("density that is not positive somewhere", {"Material/Density": "x - 0.5"},
+     r"Material/Density is .* at x = "),
+    ("solver that does not converge",
+     {"Linear solvers/Pressure/Maximum iterations": "1", "Linear solvers/Pressure/Preconditioner": "none",
+      "Domain/Upper corner": "1, 1", "Liquid 1/Centre": "0.5, 0.1"},
+     r"Linear solvers/Pressure.*Maximum iterations"),
+    ("resume without a checkpoint", {"--resume": ""}, r"checkpoint"),
+]
+
+
+def command(program, ranks, changes):
+    """The command line, with every parameter by --set on an empty file."""
+    line = [] if ranks == 1 else ["mpirun", "-np", str(ranks)]
+    line += [program, "empty.prm"]
+    for name, value in {**GOOD, **changes}.items():
+        line += [name] if name.startswith("--") else ["--set", f"{name}={value}"]
+    return line
+
+
+def failures(program):
+    for ranks in (1, 2):
+        for name, changes, message in CASES:
+            with tempfile.TemporaryDirectory() as directory:
+                path = pathlib.Path(directory)
+                (path / "empty.prm").write_text("")
+                (path / "open.off").write_text(
+                    "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n")
+                run = subprocess.run(command(program, ranks, changes), cwd=path,
+                                     capture_output=True, text=True, timeout=300)
+                errors = [l for l in run.stderr.splitlines() if l.startswith("treacle: error: ")]
+                problem = None
+                if run.returncode != 1:
+                    problem = f"exit code {run.returncode}"
+                elif len(errors) != 1:
+                    problem = f"{len(errors)} messages"
+                elif not re.search(message, run.stderr, re.S):
+                    problem = "another message"
+                elif any(p.name.endswith((".new", ".tmp", ".part")) for p in path.rglob("*")):
+                    problem = "half-written files"
+                if problem:
+                    yield f"{name} on {ranks} ranks: {problem}\n{run.stderr}"
+
+
+def main():
+    found = list(failures(str(pathlib.Path(sys.argv[1]).resolve())))
+    print("\n".join(found) or f"{2 * len(CASES)} cases: each one message, exit code 1")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+// Location, evaluation and tracing anywhere in the box on 1, 2 and 3 ranks: linear
+// fields are exact, quadratic ones with gradients, and a rotation is followed to
+// third order in dt (the error of a path falls 16 times when dt is halved).
+
+#include <treacle/mesh/tracer.h>
+
+#include "../tests.h"
+
+#include <random>
+
+using namespace treacle;
+
+template <int dim>
+void
+check(const MPI_Comm &comm)
+{
+  typename Octree<dim>::Parameters prm;
+  for (unsigned int d = 0; d < dim; ++d)
+    prm.upper_corner[d] = d == 0 ? 2 : 1;
+  prm.surface_level = dim == 2 ? 5 : 4;
+  const auto octree = std::make_shared<const Octree<dim>>(
+    comm,
+    prm,
+    [](const std::vector<Leaf<dim>> &leaves) {
+      std::vector<bool> refine;
+      for (const Leaf<dim> &leaf : leaves)
+        refine.push_back(leaf.level < 2 || leaf.origin[0] <= 20);
+      return refine;
+    },
+    [](const Leaf<dim> &) { return 1u; });
+  const Mesh<dim> mesh(octree);
+
+  const auto      quadratic = [](const Point<dim> &x) { return 1 + x * x - x[0] * x[dim - 1]; };
+  const auto      linear    = [](const Point<dim> &x) { return 2 * x[0] - 3 * x[dim - 1] + 0.5; };
+  treacle::Vector q = mesh.zeros(mesh.nodes), l = q;
+  NodeVector<dim> gradient(mesh.nodes), rotation(mesh.nodes);
+  for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+    {
+      const Point<dim> &x   = mesh.node_position[node];
+      q.local_element(node) = quadratic(x);
+      l.local_element(node) = linear(x);
+      Tensor<1, dim> g      = 2 * x, v;
+      g[0] -= x[dim - 1];
+      g[dim - 1] -= x[0];
+      gradient.set(node, g);
+      v[0] = -(x[1] - 0.5);
+      v[1] = x[0] - 1;
+      rotation.set(node, v);
+    }
+  q.update_ghost_values();
+  l.update_ghost_values();
+  gradient.update_ghost_values();
+  rotation.update_ghost_values();
+
+  // each rank asks for points all over the box, corners and walls among them
+  std::mt19937                           generator(17);
+  std::uniform_real_distribution<double> random(0, 1);
+  std::vector<Point<dim>>                x;
+  for (unsigned int i = 0; i < 2000; ++i)
+    {
+      Point<dim> p;
+      for (unsigned int d = 0; d < dim; ++d)
+        p[d] = prm.upper_corner[d] * (i < 100 ? std::round(random(generator)) :
+                                      i < 200 ? std::round(32 * random(generator)) / 32 :
+                                                random(generator));
+      x.push_back(p);
+    }
+  const Tracer<dim>         tracer(mesh);
+  const std::vector<double> values = tracer.evaluate(x, {{&q, &gradient}, {&l}});
+  double                    error  = 0;
+  for (unsigned int i = 0; i < x.size(); ++i)
+    error = std::max({error,
+                      std::abs(values[2 * i] - quadratic(x[i])),
+                      std::abs(values[2 * i + 1] - linear(x[i]))});
+
+  std::vector<Point<dim>> start;
+  for (const Point<dim> &p : x)
+    if (std::hypot(p[0] - 1, p[1] - 0.5) < 0.45)
+      start.push_back(p);
+  std::array<double, 2> path_error{};
+  for (const unsigned int n : {1, 2})
+    {
+      const double dt  = 0.4 / n;
+      const auto   end = tracer.trace(start, rotation, dt);
+      for (unsigned int i = 0; i < start.size(); ++i)
+        {
+          const double a = start[i][0] - 1, b = start[i][1] - 0.5;
+          Point<dim>   exact = start[i];
+          exact[0]           = 1 + a * std::cos(dt) - b * std::sin(dt);
+          exact[1]           = 0.5 + a * std::sin(dt) + b * std::cos(dt);
+          path_error[n - 1]  = std::max(path_error[n - 1], end[i].distance(exact));
+        }
+    }
+  tests::out() << dim << "D: cells " << mesh.cells->size() << ", fields "
+               << (Utilities::MPI::max(error, comm) < 1e-12 ? "exact" : "WRONG")
+               << ", path error " << Utilities::MPI::max(path_error[0], comm)
+               << ", halved dt: smaller by "
+               << std::round(Utilities::MPI::max(path_error[0], comm) /
+                             Utilities::MPI::max(path_error[1], comm))
+               << std::endl;
+}
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  tests::on_1_2_3_ranks([](const MPI_Comm &comm) {
+    check<2>(comm);
+    check<3>(comm);
+  });
+}
