@@ -16,15 +16,24 @@ namespace treacle
     const auto &nodes = mesh.cell_nodes[location.cell];
     for (unsigned int k = 0; k < fields.size(); ++k)
       {
-        result[k] = 0;
+        const VertexValues<dim> f = mesh.values(location.cell, *fields[k].value);
+        result[k]                 = 0;
+        for (unsigned int i = 0; i <= dim; ++i)
+          result[k] += location.lambda[i] * f[i];
+        if (fields[k].gradient == nullptr)
+          continue;
+        double correction = 0;
+        bool   is_smooth  = true;
         for (unsigned int i = 0; i <= dim; ++i)
           {
-            double value = fields[k].value->local_element(nodes[i]);
-            if (fields[k].gradient != nullptr)
-              for (unsigned int d = 0; d < dim; ++d)
-                value += 0.5 * fields[k].gradient->component[d].local_element(nodes[i]) *
-                         (x[d] - mesh.node_position[nodes[i]][d]);
-            result[k] += location.lambda[i] * value;
+            const Tensor<1, dim> g = fields[k].gradient->value(nodes[i]);
+            is_smooth              = is_smooth && g.norm_square() > 0;
+            correction += 0.5 * location.lambda[i] * (g * (x - mesh.node_position[nodes[i]]));
+          }
+        if (is_smooth)
+          {
+            const auto [smallest, largest] = std::minmax_element(f.begin(), f.end());
+            result[k] = std::min(std::max(result[k] + correction, *smallest), *largest);
           }
       }
   }

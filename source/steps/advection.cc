@@ -57,7 +57,14 @@ namespace treacle
     : old(old)
     , surface_velocity(slipping_velocity(old, domain))
     , phi_gradient(nodal_gradient(*old.mesh, old.phi))
-  {}
+  {
+    // at kinks the mean over the cells around is shorter than 1, and to use it would
+    // let thin parts grow
+    for (LocalIndex node = 0; node < old.mesh->n_owned_nodes(); ++node)
+      if (std::abs(phi_gradient.value(node).norm() - 1) > 0.1)
+        phi_gradient.set(node, Tensor<1, dim>());
+    phi_gradient.update_ghost_values();
+  }
 
   template <int dim>
   std::vector<Point<dim>>

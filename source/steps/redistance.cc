@@ -8,25 +8,39 @@ namespace treacle
 {
   namespace
   {
-    /// Volume-weighted mean of the gradient over the cells around an owned node
-    /// that @p counts holds for.
-    template <int dim, typename Counts>
-    Tensor<1, dim>
-    gradient_at(const Mesh<dim> &mesh, const Vector &field, const LocalIndex node, const Counts &counts)
+    template <int dim>
+    struct MeanGradient
     {
-      Tensor<1, dim> sum;
-      double         volume = 0;
+      Tensor<1, dim> mean;
+      double         length = 0; ///< the mean of the lengths
+    };
+
+    /// Volume-weighted means over the cells around an owned node that @p counts
+    /// holds for.
+    template <int dim, typename Counts>
+    MeanGradient<dim>
+    mean_gradient(const Mesh<dim>  &mesh,
+                  const Vector     &field,
+                  const LocalIndex  node,
+                  const Counts     &counts)
+    {
+      MeanGradient<dim> result;
+      double            volume = 0;
       for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
         {
           const LocalIndex c = mesh.node_cells[k];
           if (!counts(c))
             continue;
-          volume += mesh.cell_volume[c];
+          Tensor<1, dim> g;
           for (unsigned int i = 0; i <= dim; ++i)
-            sum += mesh.cell_volume[c] * field.local_element(mesh.cell_nodes[c][i]) *
-                   mesh.cell_gradients[c][i];
+            g += field.local_element(mesh.cell_nodes[c][i]) * mesh.cell_gradients[c][i];
+          volume += mesh.cell_volume[c];
+          result.mean += mesh.cell_volume[c] * g;
+          result.length += mesh.cell_volume[c] * g.norm();
         }
-      return sum / volume;
+      result.mean /= volume;
+      result.length /= volume;
+      return result;
     }
   } // namespace
 
@@ -36,7 +50,7 @@ namespace treacle
   {
     NodeVector<dim> gradient(mesh.nodes);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      gradient.set(node, gradient_at(mesh, field, node, [](const LocalIndex) { return true; }));
+      gradient.set(node, mean_gradient(mesh, field, node, [](const LocalIndex) { return true; }).mean);
     gradient.update_ghost_values();
     return gradient;
   }
@@ -83,12 +97,12 @@ namespace treacle
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       if (is_cut[node])
         {
-          const double length =
-            gradient_at(mesh, state.phi, node, [&](const LocalIndex c) { return is_cut_cell[c]; })
-              .norm();
-          // near a kink, as where two surfaces meet, the mean says nothing
-          if (length > 0.5 && length < 2 && !is_unit(length))
-            phi.local_element(node) /= length;
+          const MeanGradient<dim> g =
+            mean_gradient(mesh, state.phi, node, [&](const LocalIndex c) { return is_cut_cell[c]; });
+          // where the directions differ, at kinks and in thin parts, a short gradient
+          // says nothing of the distance, and to scale by it would let them grow
+          if (!is_unit(g.length) && g.mean.norm() > 0.95 * g.length)
+            phi.local_element(node) /= g.length;
         }
     phi.update_ghost_values();
 

@@ -9,7 +9,9 @@
 namespace treacle
 {
   /// A node field, P1 in a cell. With nodal gradients (1/m) it is evaluated as
-  /// `sum lambda_i (f_i + g_i·(x - x_i)/2)`, which is exact for quadratic fields.
+  /// `sum lambda_i (f_i + g_i·(x - x_i)/2)`, which is exact for quadratic fields,
+  /// limited to the values at the cell's nodes. A gradient of zero says that the field
+  /// is not smooth there: cells around that node stay P1.
   template <int dim>
   struct NodeField
   {
