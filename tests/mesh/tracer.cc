@@ -33,7 +33,10 @@ check(const MPI_Comm &comm)
     [](const Leaf<dim> &) { return 1u; });
   const Mesh<dim> mesh(octree);
 
-  const auto      quadratic = [](const Point<dim> &x) { return 1 + x * x - x[0] * x[dim - 1]; };
+  // so steep that its extremes over a cell are at the cell's nodes
+  const auto quadratic = [](const Point<dim> &x) {
+    return 30 * x[0] + 19 * x[1] + (dim == 3 ? 11 * x[2] : 0.) + x * x - x[0] * x[dim - 1];
+  };
   const auto      linear    = [](const Point<dim> &x) { return 2 * x[0] - 3 * x[dim - 1] + 0.5; };
   treacle::Vector q = mesh.zeros(mesh.nodes), l = q;
   NodeVector<dim> gradient(mesh.nodes), rotation(mesh.nodes);
@@ -45,6 +48,10 @@ check(const MPI_Comm &comm)
       Tensor<1, dim> g      = 2 * x, v;
       g[0] -= x[dim - 1];
       g[dim - 1] -= x[0];
+      g[0] += 30;
+      g[1] += 19;
+      if (dim == 3)
+        g[2] += 11;
       gradient.set(node, g);
       v[0] = -(x[1] - 0.5);
       v[1] = x[0] - 1;

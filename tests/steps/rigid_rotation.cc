@@ -73,7 +73,7 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const unsigned int level = argc > 1 ? std::stoi(argv[1]) : 4;
+  const unsigned int level = argc > 1 ? std::stoi(argv[1]) : 3;
   on_1_2_3_ranks([&](const MPI_Comm &comm) {
     for (const char *mapping : {"face fitted FLIP", "face fitted PIC", "node FLIP", "node PIC"})
       {

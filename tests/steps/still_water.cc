@@ -59,8 +59,8 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const unsigned int n_steps = argc > 1 ? std::stoi(argv[1]) : 5;
-  const unsigned int level   = argc > 2 ? std::stoi(argv[2]) : 4;
+  const unsigned int n_steps = argc > 1 ? std::stoi(argv[1]) : 3;
+  const unsigned int level   = argc > 2 ? std::stoi(argv[2]) : 3;
   on_1_2_3_ranks([&](const MPI_Comm &comm) {
     for (const bool tilted : {false, true})
       {
