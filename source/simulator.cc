@@ -110,8 +110,16 @@ namespace treacle
     state = std::make_unique<State<dim>>(initial_mesh<dim>(comm, parameters, scene));
     const Mesh<dim> &mesh = *state->mesh;
     reach                 = (prm.time_step.cfl + 3) * mesh.finest_size();
+    std::string error;
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      state->phi.local_element(node) = scene.liquid_distance(mesh.node_position[node]);
+      {
+        double &phi = state->phi.local_element(node);
+        phi         = scene.liquid_distance(mesh.node_position[node]);
+        if (!std::isfinite(phi) && error.empty())
+          error = "The Expression of a liquid is not finite at x = (" +
+                  Utilities::to_string(mesh.node_position[node][0]) + ", ...): mend it.";
+      }
+    throw_first(comm, error);
     state->phi.update_ghost_values();
     check_liquids();
     redistance(*state, reach);
@@ -120,8 +128,11 @@ namespace treacle
     volume = domain->total_volume();
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       if (domain->is_liquid_face(f))
-        state->u.local_element(f) =
-          scene.initial_velocity(mesh.face_centre[f]) * mesh.face_normal[f];
+        keep_error(error, [&] {
+          state->u.local_element(f) =
+            scene.initial_velocity(mesh.face_centre[f]) * mesh.face_normal[f];
+        });
+    throw_first(comm, error);
     state->u.update_ghost_values();
     reconstruction.advance(*state, FaceFit<dim>(prm.face_fit, *domain), reach);
 
@@ -130,6 +141,7 @@ namespace treacle
     statistics = std::make_unique<Statistics<dim>>(comm, prm.output_directory);
     checkpoint.remove();
     write_parameters();
+    statistics->add_row(*state, *domain, StepInfo());
     output_frame();
   }
 
@@ -140,6 +152,9 @@ namespace treacle
     auto [loaded, progress] = checkpoint.load(with_box(prm.mesh, scene), &leaf_weight<dim>);
     state                   = std::make_unique<State<dim>>(std::move(loaded));
     frame                   = progress.frame;
+    require(std::abs(time_step.frame_time(frame) - state->time) <= 1e-9 * state->time,
+            "Frame interval: it must be the one of the run that is resumed, for frame " +
+              std::to_string(frame) + " is at t = " + Utilities::to_string(state->time) + " s.");
     volume                  = progress.scalars.at("volume");
     reach                   = (prm.time_step.cfl + 3) * state->mesh->finest_size();
     domain = std::make_unique<LiquidDomain<dim>>(*state, scene, prm.projection.minimum_theta);
@@ -205,7 +220,8 @@ namespace treacle
       next.v = state->v;
     next.v.update_ghost_values();
     domain.reset();
-    *state = std::move(next);
+    // not *state = ...: a vector that is assigned to may keep its old ghosts
+    state = std::make_unique<State<dim>>(std::move(next));
   }
 
   template <int dim>

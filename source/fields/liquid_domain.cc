@@ -4,27 +4,10 @@
 #include <treacle/base/exchange.h>
 #include <treacle/fields/liquid_domain.h>
 
-#include <functional>
-
 namespace treacle
 {
   namespace
   {
-    /// Run @p evaluate; the first message of a UserError that it throws is kept.
-    void
-    keep_error(std::string &error, const std::function<void()> &evaluate)
-    {
-      try
-        {
-          evaluate();
-        }
-      catch (const UserError &e)
-        {
-          if (error.empty())
-            error = e.what();
-        }
-    }
-
     template <int dim>
     std::vector<double>
     solid_distances(const State<dim> &state, const Scene<dim> &scene)
@@ -125,7 +108,6 @@ namespace treacle
     solid_velocity.assign(n, 0);
 
     Vector      mass = mesh.zeros(mesh.faces), part = mesh.zeros(mesh.faces);
-    std::string error;
     unsigned int n_clamped = 0;
     for (LocalIndex f = 0; f < n; ++f)
       {
@@ -159,12 +141,11 @@ namespace treacle
             t                   = std::max(actual, minimum_theta);
             n_clamped += actual < minimum_theta;
           }
-        double rho = 0;
-        keep_error(error, [&] { rho = scene.density(x, state.time); });
+        const double rho = (is_active_cell[i] ? density[i] : density[j]) / 2 +
+                           (is_active_cell[j] ? density[j] : density[i]) / 2;
         mass.local_element(f) =
           rho * open_fraction[f] * mesh.face_area[f] * t * mesh.face_dual_length[f];
       }
-    throw_first(mesh.communicator(), error);
     n_clamped_faces = Utilities::MPI::sum(n_clamped, mesh.communicator());
     mass.update_ghost_values();
     part.update_ghost_values();

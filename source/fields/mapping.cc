@@ -17,8 +17,35 @@ namespace treacle
     return u / dim;
   }
 
+  namespace
+  {
+    /// Invalid nodes receive the mean of their valid neighbours.
+    template <int dim>
+    void
+    fill_invalid(const LiquidDomain<dim> &domain, const Vector &is_valid, NodeVector<dim> &v)
+    {
+      const Mesh<dim> &mesh = domain.mesh;
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        {
+          if (is_valid.local_element(node) > 0 || !domain.is_active_node[node])
+            continue;
+          Tensor<1, dim> sum;
+          double         n = 0;
+          for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+            for (const LocalIndex other : mesh.cell_nodes[mesh.node_cells[k]])
+              if (is_valid.local_element(other) > 0)
+                {
+                  sum += v.value(other);
+                  ++n;
+                }
+          if (n > 0)
+            v.set(node, Tensor<1, dim>(sum / n));
+        }
+    }
+  } // namespace
+
   template <int dim>
-  std::vector<unsigned char>
+  void
   least_squares(const LiquidDomain<dim> &domain, const Vector &u, NodeVector<dim> &v)
   {
     const Mesh<dim> &mesh = domain.mesh;
@@ -52,25 +79,22 @@ namespace treacle
             velocity += (mode * rhs) / lambda * mode;
           else
             valid = false;
-        for (unsigned int d = 0; d < dim; ++d)
-          if (domain.constrained[node] >> d & 1)
-            velocity[d] = domain.prescribed[node][d];
         v.set(node, velocity);
-        is_valid.local_element(node) = valid || domain.constrained[node] == (1u << dim) - 1;
+        is_valid.local_element(node) = valid;
       }
     v.update_ghost_values();
     is_valid.update_ghost_values();
-    std::vector<unsigned char> result(mesh.node_position.size());
-    for (LocalIndex node = 0; node < result.size(); ++node)
-      result[node] = is_valid.local_element(node) > 0;
-    return result;
+    fill_invalid(domain, is_valid, v);
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (domain.constrained[node] >> d & 1)
+          v.component[d].local_element(node) = domain.prescribed[node][d];
+    v.update_ghost_values();
   }
 
 #define INSTANTIATE(dim)                                                                        \
   template double face_velocity(const Mesh<dim> &, const NodeVector<dim> &, const LocalIndex); \
-  template std::vector<unsigned char> least_squares(const LiquidDomain<dim> &,                  \
-                                                    const Vector &,                             \
-                                                    NodeVector<dim> &);
+  template void least_squares(const LiquidDomain<dim> &, const Vector &, NodeVector<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

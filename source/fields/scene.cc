@@ -88,7 +88,7 @@ namespace treacle
                 const double       t)
     {
       std::ostringstream message;
-      message << "Material/" << name << " is " << value << " at x = (" << x << ") and t = " << t
+      message << name << " is " << value << " at x = (" << x << ") and t = " << t
               << " s, but must be " << allowed << " in the liquid at all times.";
       throw UserError(message.str());
     }
@@ -190,8 +190,6 @@ namespace treacle
     for (unsigned int d = 0; d < dim; ++d)
       require(lower[d] < upper[d],
               "Domain/Upper corner must exceed Domain/Lower corner in every component.");
-    require(parameters.transport == "fixed",
-            "Material/Transport is \"" + parameters.transport + "\", but must be fixed.");
     if (density_at.is_constant())
       density(lower, 0.);
     if (viscosity_at.is_constant())
@@ -260,7 +258,10 @@ namespace treacle
   Scene<dim>::initial_velocity(const Point<dim> &x) const
   {
     const unsigned int k = (liquids.size() == 1 ? 0 : nearest<dim>(liquids, x).first);
-    return liquid_velocities[k](x, 0.);
+    const Tensor<1, dim> value = liquid_velocities[k](x, 0.);
+    if (!std::isfinite(value.norm_square()))
+      value_error(numbered("Liquid", k) + "/Velocity", value.norm(), "finite", x, 0.);
+    return value;
   }
 
   template <int dim>
@@ -292,7 +293,7 @@ namespace treacle
   {
     const double value = density_at(x, t);
     if (!(value > 0 && std::isfinite(value)))
-      value_error("Density", value, "positive", x, t);
+      value_error("Material/Density", value, "positive", x, t);
     return value;
   }
 
@@ -302,7 +303,7 @@ namespace treacle
   {
     const double value = viscosity_at(x, t);
     if (!(value >= 0 && std::isfinite(value)))
-      value_error("Viscosity", value, "zero or positive", x, t);
+      value_error("Material/Viscosity", value, "zero or positive", x, t);
     return value;
   }
 
@@ -310,7 +311,10 @@ namespace treacle
   Tensor<1, dim>
   Scene<dim>::gravity(const Point<dim> &x, const double t) const
   {
-    return gravity_at(x, t);
+    const Tensor<1, dim> value = gravity_at(x, t);
+    if (!std::isfinite(value.norm_square()))
+      value_error("Gravity/Acceleration", value.norm(), "finite", x, t);
+    return value;
   }
 
 

@@ -17,12 +17,6 @@ namespace treacle
       std::sort(v.begin(), v.end());
       v.erase(std::unique(v.begin(), v.end()), v.end());
     }
-
-    unsigned int
-    meeting_rank(const VertexKey key, const unsigned int n_ranks)
-    {
-      return (key * 0x9e3779b97f4a7c15ull >> 32) % n_ranks;
-    }
   } // namespace
 
   template <int dim>

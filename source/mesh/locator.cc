@@ -60,7 +60,7 @@ namespace treacle
         if (smallest >= 0)
           break;
       }
-    Assert(largest > -1e-8, ExcMessage("No cell of its leaf contains the point."));
+    Assert(largest > -1e-5, ExcMessage("No cell of its leaf contains the point."));
     return best;
   }
 

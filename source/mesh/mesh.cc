@@ -148,7 +148,7 @@ namespace treacle
       const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
       PerRank<VertexKey> named(n_ranks);
       for (const VertexKey key : keys)
-        named[key * 0x9e3779b97f4a7c15ull % n_ranks].push_back(key);
+        named[meeting_rank(key, n_ranks)].push_back(key);
       const PerRank<VertexKey> heard = send_and_receive(comm, named);
 
       std::unordered_map<VertexKey, std::vector<unsigned int>> who;

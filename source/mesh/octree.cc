@@ -27,9 +27,6 @@ namespace treacle
     root_counts(const typename Octree<dim>::Parameters &prm)
     {
       const double shortest = shortest_edge<dim>(prm);
-      require(shortest > 0,
-              "Domain/Upper corner: every component must be larger than that "
-              "of Domain/Lower corner.");
       const double              s = shortest / prm.root_cells;
       std::vector<unsigned int> n(dim);
       for (unsigned int d = 0; d < dim; ++d)
@@ -135,7 +132,9 @@ namespace treacle
                                               prm.lower_corner,
                                               prm.upper_corner);
 
-    for (unsigned int level = 0; level < prm.surface_level; ++level)
+    for (unsigned int level = 0;
+         level < std::min(prm.surface_level, triangulation.n_global_levels());
+         ++level)
       {
         std::vector<Leaf<dim>>                                         leaves;
         std::vector<typename Triangulation<dim>::active_cell_iterator> cells;

@@ -22,19 +22,14 @@ namespace treacle
           result[k] += location.lambda[i] * f[i];
         if (fields[k].gradient == nullptr)
           continue;
-        double correction = 0;
-        bool   is_smooth  = true;
+        double correction = 0, smoothness = 0;
         for (unsigned int i = 0; i <= dim; ++i)
           {
             const Tensor<1, dim> g = fields[k].gradient->value(nodes[i]);
-            is_smooth              = is_smooth && g.norm_square() > 0;
             correction += 0.5 * location.lambda[i] * (g * (x - mesh.node_position[nodes[i]]));
+            smoothness += location.lambda[i] * fields[k].smoothness->local_element(nodes[i]);
           }
-        if (is_smooth)
-          {
-            const auto [smallest, largest] = std::minmax_element(f.begin(), f.end());
-            result[k] = std::min(std::max(result[k] + correction, *smallest), *largest);
-          }
+        result[k] += smoothness * correction;
       }
   }
 

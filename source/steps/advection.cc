@@ -9,7 +9,7 @@ namespace treacle
 {
   namespace
   {
-    /// Replace the velocity of constrained nodes by the mean over free nodes of
+    /// Replace the prescribed components of the velocity by the mean over free nodes of
     /// the cells around them, layer by layer.
     template <int dim>
     NodeVector<dim>
@@ -43,7 +43,9 @@ namespace treacle
                     }
               if (n == 0)
                 continue;
-              v.set(node, Tensor<1, dim>(sum / n));
+              for (unsigned int d = 0; d < dim; ++d)
+                if (domain.constrained[node] >> d & 1)
+                  v.component[d].local_element(node) = sum[d] / n;
               free.local_element(node) = 1;
             }
         }
@@ -57,13 +59,12 @@ namespace treacle
     : old(old)
     , surface_velocity(slipping_velocity(old, domain))
     , phi_gradient(nodal_gradient(*old.mesh, old.phi))
+    , phi_smoothness(old.mesh->nodes)
   {
-    // at kinks the mean over the cells around is shorter than 1, and to use it would
-    // let thin parts grow
+    // at kinks the mean over the cells around is shorter than 1
     for (LocalIndex node = 0; node < old.mesh->n_owned_nodes(); ++node)
-      if (std::abs(phi_gradient.value(node).norm() - 1) > 0.1)
-        phi_gradient.set(node, Tensor<1, dim>());
-    phi_gradient.update_ghost_values();
+      phi_smoothness.local_element(node) = std::abs(phi_gradient.value(node).norm() - 1) < 0.1;
+    phi_smoothness.update_ghost_values();
   }
 
   template <int dim>
@@ -78,7 +79,7 @@ namespace treacle
   Advection<dim>::level_set(const std::vector<Point<dim>> &x, const double dt) const
   {
     const Tracer<dim> tracer(*old.mesh);
-    return tracer.evaluate(tracer.trace(x, surface_velocity, -dt), {{&old.phi, &phi_gradient}});
+    return tracer.evaluate(tracer.trace(x, surface_velocity, -dt), {{&old.phi, &phi_gradient, &phi_smoothness}});
   }
 
   template <int dim>

@@ -110,6 +110,11 @@ namespace treacle
         x = 0;
         return 0;
       }
+    // not-a-number would pass through the solver as if there were nothing to do
+    require(std::isfinite(norm),
+            "Linear solvers/" + name +
+              ": the right-hand side is not finite. Look for a velocity or force that grows "
+              "without bound; a smaller Maximum time step may help.");
     SolverControl control(prm.maximum_iterations, prm.relative_tolerance * norm);
     try
       {

@@ -30,6 +30,20 @@ namespace treacle
                        numbers::invalid_dof_index;
     rows.set_size(dim * n);
     rows.add_range(dim * first, dim * (first + n_owned));
+
+    std::vector<LocalIndex> columns;
+    for (const LocalIndex node : owned_nodes)
+      {
+        columns.clear();
+        for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+          if (domain.is_active_cell[mesh.node_cells[k]])
+            columns.insert(columns.end(),
+                           mesh.cell_nodes[mesh.node_cells[k]].begin(),
+                           mesh.cell_nodes[mesh.node_cells[k]].end());
+        std::sort(columns.begin(), columns.end());
+        const auto n_columns = std::unique(columns.begin(), columns.end()) - columns.begin();
+        row_lengths.insert(row_lengths.end(), dim, dim * n_columns);
+      }
   }
 
   template <int dim>
@@ -104,14 +118,8 @@ namespace treacle
     std::vector<LocalIndex>     columns;
     std::vector<Tensor<2, dim>> blocks;
 
-    std::vector<unsigned int> lengths;
-    for (const LocalIndex node : owned_nodes)
-      {
-        assemble_node(mass, strain_coefficient, node, columns, blocks);
-        lengths.insert(lengths.end(), dim, dim * columns.size());
-      }
     result.matrix =
-      std::make_unique<TrilinosWrappers::SparseMatrix>(rows, rows, mesh.communicator(), lengths);
+      std::make_unique<TrilinosWrappers::SparseMatrix>(rows, rows, mesh.communicator(), row_lengths);
     result.shift.reinit(rows, mesh.communicator());
 
     const auto is_constrained = [&](const LocalIndex node, const unsigned int d) {
@@ -126,7 +134,7 @@ namespace treacle
         for (unsigned int a = 0; a < dim; ++a)
           {
             const GlobalIndex row = dim * number[node] + a;
-            // a component that nothing holds keeps the value it has
+            // a component that nothing holds
             const double diagonal = blocks[0][a][a] > 0 ? blocks[0][a][a] : 1;
             indices.assign(1, row);
             values.assign(1, diagonal);

@@ -58,9 +58,8 @@ namespace treacle
     for (LocalIndex c = 0; c < mesh.cell_nodes.size(); ++c)
       label.local_element(c) =
         number[c] == numbers::invalid_dof_index ? -1. : static_cast<double>(number[c]);
-    std::vector<LocalIndex> stack;
-    for (const LocalIndex c : owned_cells)
-      stack.push_back(c);
+    // the smallest label on top, or each smaller one would flood the rest again
+    std::vector<LocalIndex> stack(owned_cells.rbegin(), owned_cells.rend());
     for (bool changed = true; changed;)
       {
         changed = false;

@@ -23,36 +23,6 @@ namespace treacle
     prm.leave_subsection();
   }
 
-  namespace
-  {
-    /// Nodes that the faces do not determine receive the mean of their neighbours.
-    template <int dim>
-    void
-    fill_invalid(const LiquidDomain<dim>          &domain,
-                 const std::vector<unsigned char> &is_valid,
-                 NodeVector<dim>                  &v)
-    {
-      const Mesh<dim> &mesh = domain.mesh;
-      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-        {
-          if (is_valid[node] || !domain.is_active_node[node])
-            continue;
-          Tensor<1, dim> sum;
-          double         n = 0;
-          for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
-            for (const LocalIndex other : mesh.cell_nodes[mesh.node_cells[k]])
-              if (is_valid[other])
-                {
-                  sum += v.value(other);
-                  ++n;
-                }
-          if (n > 0)
-            v.set(node, Tensor<1, dim>(sum / n));
-        }
-      v.update_ghost_values();
-    }
-  } // namespace
-
   template <int dim>
   void
   Reconstruction<dim>::advance(State<dim> &state, const FaceFit<dim> &fit, const double reach) const
@@ -60,7 +30,7 @@ namespace treacle
     if (prm.method == "face fitted")
       fit.solve(state.u, state.v);
     else
-      fill_invalid(fit.domain, least_squares(fit.domain, state.u, state.v), state.v);
+      least_squares(fit.domain, state.u, state.v);
     extrapolate(state, fit.domain, reach);
   }
 

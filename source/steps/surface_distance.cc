@@ -98,7 +98,6 @@ namespace treacle
     for (unsigned int k = 0; k < surface.facets.size(); ++k)
       {
         const Facet x = surface.facet_points(k);
-        area += area_vector<dim>(x).norm();
         facets.push_back(x);
         const BoundingBox<dim> around(std::vector<Point<dim>>(x.begin(), x.end()));
         for (unsigned int r = 0; r < boxes.size(); ++r)
@@ -112,7 +111,6 @@ namespace treacle
                   to_rank[r].back()[dim * i + d] = x[i][d];
             }
       }
-    area = Utilities::MPI::sum(area, comm);
     for (const auto &received : send_and_receive(comm, to_rank))
       for (const auto &numbers : received)
         {
@@ -141,7 +139,10 @@ namespace treacle
     // boxes in the order of their distance, more of them until no other can hold
     // a nearer facet (an incremental query costs far more)
     std::vector<std::pair<BoundingBox<dim>, unsigned int>> boxes;
-    unsigned int                                           best_facet = 0;
+    // on the box a nearest point is often the corner of several facets: all of them
+    // count, for their order depends on the partition
+    const double tolerance   = 1e-12 * box.side_length(0);
+    double       beyond      = best.distance;
     for (unsigned int k = 8;; k *= 8)
       {
         boxes.clear();
@@ -152,17 +153,20 @@ namespace treacle
             farthest_box     = std::max(farthest_box, boost::geometry::distance(x, around));
             const Point<dim> p = nearest_on(facets[facet], x);
             const double     d = p.distance(x);
-            if (d < best.distance && d < reach)
+            if (d >= reach || d > best.distance + tolerance)
+              continue;
+            if (d < best.distance - tolerance)
               {
-                best       = {p, d};
-                best_facet = facet;
+                best   = {p, d};
+                beyond = distance_beyond_box(x, p, facets[facet]);
               }
+            else
+              beyond = std::min(beyond, distance_beyond_box(x, p, facets[facet]));
           }
         if (boxes.size() < k || farthest_box >= std::min(best.distance, reach))
           break;
       }
-    if (std::isfinite(best.distance))
-      best.distance = distance_beyond_box(x, best.point, facets[best_facet]);
+    best.distance = beyond;
     return best;
   }
 

@@ -25,12 +25,12 @@ check(const MPI_Comm &comm, const std::string &liquid, const std::string &mappin
   const std::string z    = dim == 2 ? "y" : "z";
   const std::string volume = "Liquid volume (m^" + std::to_string(dim) + ")";
   out().precision(5);
-  out() << dim << "D, " << mapping << ": " << rows.size() << " steps, volume / first "
-        << last.at(volume) / rows.front().at(volume) << ", centre of mass "
+  out() << dim << "D, " << mapping << ": " << rows.size() - 1 << " steps, volume / first "
+        << last.at(volume) / rows[1].at(volume) << ", centre of mass "
         << last.at("Centre of mass " + z + " (m)") << ", width "
         << last.at("Liquid maximum x (m)") - last.at("Liquid minimum x (m)")
         << ", kinetic energy / first "
-        << last.at("Kinetic energy (J)") / rows.front().at("Kinetic energy (J)")
+        << last.at("Kinetic energy (J)") / rows[1].at("Kinetic energy (J)")
         << ", divergence " << (last.at("Maximum divergence (1/s)") < 1e-5 ? "small" : "LARGE")
         << std::endl;
 }

@@ -49,7 +49,7 @@ check(const MPI_Comm &comm, const bool tilted, const unsigned int n_steps, const
   if (n_steps > 10) // for a person
     std::cout << dim << "D " << (tilted ? "tilted" : "flat") << ": maximum speed " << speed
               << " sqrt(g h), " << clamped << " clamped faces" << std::endl;
-  out() << dim << "D " << (tilted ? "tilted" : "flat") << ": " << rows.size() << " steps, "
+  out() << dim << "D " << (tilted ? "tilted" : "flat") << ": " << rows.size() - 1 << " steps, "
         << clamped << " clamped faces, speed "
         << (speed < 1e-8 ? "below 1e-8" : speed < 1e-3 ? "below 1e-3" : "TOO LARGE")
         << " sqrt(g h)" << std::endl;

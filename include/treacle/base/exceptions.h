@@ -19,6 +19,23 @@ namespace treacle
     using std::runtime_error::runtime_error;
   };
 
+  /// Run @p evaluate on this rank; the first message of a UserError is kept, for
+  /// throw_first() to throw on all ranks.
+  template <typename Function>
+  void
+  keep_error(std::string &error, const Function &evaluate)
+  {
+    try
+      {
+        evaluate();
+      }
+    catch (const UserError &e)
+      {
+        if (error.empty())
+          error = e.what();
+      }
+  }
+
   /// Throw a UserError unless @p condition holds.
   inline void
   require(const bool condition, const std::string &message)

@@ -8,6 +8,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cstdint>
 #include <type_traits>
 #include <vector>
 
@@ -54,6 +55,13 @@ namespace treacle
     MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
     MPI_Type_free(&type);
     return from_rank;
+  }
+
+  /// The rank that knows of a key, for ranks to meet there.
+  inline unsigned int
+  meeting_rank(const std::uint64_t key, const unsigned int n_ranks)
+  {
+    return (key * 0x9e3779b97f4a7c15ull >> 32) % n_ranks;
   }
 
   /// Throw on every rank the UserError of the lowest rank on which @p message

@@ -15,12 +15,12 @@ namespace treacle
   face_velocity(const Mesh<dim> &mesh, const NodeVector<dim> &v, const LocalIndex face);
 
   /// H: node velocity from the liquid faces around a node by least squares,
-  /// `(N^T N)^-1 N^T u` (the paper, section 4.3). Nodes where singular
-  /// values below 0.1 of the largest had to be cut keep that part zero and count
-  /// as invalid; prescribed components are set. Returns which nodes
-  /// are valid, ghosts included. @p u must have up-to-date ghosts.
+  /// `(N^T N)^-1 N^T u` (the paper, section 4.3). Nodes where singular values below
+  /// 0.1 of the largest would have to be cut are invalid: they receive the mean of
+  /// their valid neighbours. Prescribed components are set. @p u must have up-to-date
+  /// ghosts.
   template <int dim>
-  std::vector<unsigned char>
+  void
   least_squares(const LiquidDomain<dim> &domain, const Vector &u, NodeVector<dim> &v);
 } // namespace treacle
 

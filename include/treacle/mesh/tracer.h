@@ -8,15 +8,16 @@
 
 namespace treacle
 {
-  /// A node field, P1 in a cell. With nodal gradients (1/m) it is evaluated as
-  /// `sum lambda_i (f_i + g_i·(x - x_i)/2)`, which is exact for quadratic fields,
-  /// limited to the values at the cell's nodes. A gradient of zero says that the field
-  /// is not smooth there: cells around that node stay P1.
+  /// A node field, P1 in a cell. With nodal gradients g (1/m) and their smoothness s
+  /// (1 where the field has one, 0 at kinks) it is evaluated as
+  /// `sum lambda_i f_i + (sum lambda_i s_i) sum lambda_i g_i·(x - x_i)/2`, which is
+  /// continuous, and exact for quadratic fields where s = 1.
   template <int dim>
   struct NodeField
   {
     const Vector          *value;
-    const NodeVector<dim> *gradient = nullptr;
+    const NodeVector<dim> *gradient   = nullptr;
+    const Vector          *smoothness = nullptr;
   };
 
   /// Follows paths and evaluates node fields anywhere in the box: what lies on

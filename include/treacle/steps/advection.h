@@ -34,6 +34,7 @@ namespace treacle
     /// would remain under all that falls on it, for a P1 velocity vanishes there.
     NodeVector<dim>       surface_velocity;
     NodeVector<dim> phi_gradient;
+    Vector          phi_smoothness;
   };
 } // namespace treacle
 

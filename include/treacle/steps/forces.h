@@ -4,6 +4,7 @@
 #ifndef treacle_steps_forces_h
 #define treacle_steps_forces_h
 
+#include <treacle/base/exchange.h>
 #include <treacle/fields/liquid_domain.h>
 
 namespace treacle
@@ -17,10 +18,14 @@ namespace treacle
     advance(State<dim> &state, const LiquidDomain<dim> &domain, const double dt) const
     {
       const Mesh<dim> &mesh = domain.mesh;
+      std::string      error;
       for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
         if (domain.is_liquid_face(f))
-          state.u.local_element(f) +=
-            dt * (domain.scene.gravity(mesh.face_centre[f], state.time) * mesh.face_normal[f]);
+          keep_error(error, [&] {
+            state.u.local_element(f) +=
+              dt * (domain.scene.gravity(mesh.face_centre[f], state.time) * mesh.face_normal[f]);
+          });
+      throw_first(mesh.communicator(), error);
       state.u.update_ghost_values();
     }
   };

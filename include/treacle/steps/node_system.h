@@ -71,6 +71,7 @@ namespace treacle
                   std::vector<Tensor<2, dim>> &blocks) const;
 
     std::vector<LocalIndex>         owned_nodes; ///< active and owned
+    std::vector<unsigned int>       row_lengths;
     std::vector<GlobalIndex>        number;      ///< of each known node, or invalid_dof_index
     IndexSet                        rows;
     mutable std::vector<LocalIndex> slot; ///< scratch: node -> place in columns

@@ -14,9 +14,10 @@ namespace treacle
   NodeVector<dim>
   nodal_gradient(const Mesh<dim> &mesh, const Vector &field);
 
-  /// Make phi a signed distance again, within @p reach of the surface and
-  /// clamped beyond. Nodes of cut cells keep their value but for the length of
-  /// the gradient there, so that the surface stays where it is.
+  /// Make phi a signed distance, within @p reach (m) of the surface and clamped
+  /// beyond. The surface stays where it is: near it phi is left alone where it is a
+  /// distance well enough, and nodes of cut cells are only ever divided by the length
+  /// of the gradient.
   template <int dim>
   void
   redistance(State<dim> &state, const double reach);

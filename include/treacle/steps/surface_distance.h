@@ -31,13 +31,6 @@ namespace treacle
 
     const double reach;
 
-    /// Area of the surface over all ranks (m^(dim-1)).
-    double
-    total_area() const
-    {
-      return area;
-    }
-
   private:
     using Facet = std::array<Point<dim>, dim>;
 
@@ -49,7 +42,6 @@ namespace treacle
     std::vector<Facet>                             facets;
     RTree<std::pair<BoundingBox<dim>, unsigned int>> tree;
     BoundingBox<dim>                               bounds; ///< of all facets
-    double                                         area = 0;
   };
 } // namespace treacle
 
