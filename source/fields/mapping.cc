@@ -17,6 +17,28 @@ namespace treacle
     return u / dim;
   }
 
+  template <int dim>
+  bool
+  mean_of_neighbours(const Mesh<dim>       &mesh,
+                     const NodeVector<dim> &v,
+                     const Vector          &counts,
+                     const LocalIndex       node,
+                     Tensor<1, dim>        &mean)
+  {
+    unsigned int n = 0;
+    mean           = 0;
+    for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+      for (const LocalIndex other : mesh.cell_nodes[mesh.node_cells[k]])
+        if (counts.local_element(other) > 0)
+          {
+            mean += v.value(other);
+            ++n;
+          }
+    if (n > 0)
+      mean /= n;
+    return n > 0;
+  }
+
   namespace
   {
     /// Invalid nodes receive the mean of their valid neighbours.
@@ -25,22 +47,11 @@ namespace treacle
     fill_invalid(const LiquidDomain<dim> &domain, const Vector &is_valid, NodeVector<dim> &v)
     {
       const Mesh<dim> &mesh = domain.mesh;
+      Tensor<1, dim>   mean;
       for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-        {
-          if (is_valid.local_element(node) > 0 || !domain.is_active_node[node])
-            continue;
-          Tensor<1, dim> sum;
-          double         n = 0;
-          for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
-            for (const LocalIndex other : mesh.cell_nodes[mesh.node_cells[k]])
-              if (is_valid.local_element(other) > 0)
-                {
-                  sum += v.value(other);
-                  ++n;
-                }
-          if (n > 0)
-            v.set(node, Tensor<1, dim>(sum / n));
-        }
+        if (is_valid.local_element(node) == 0 && domain.is_active_node[node] &&
+            mean_of_neighbours(mesh, v, is_valid, node, mean))
+          v.set(node, mean);
     }
   } // namespace
 
@@ -94,6 +105,11 @@ namespace treacle
 
 #define INSTANTIATE(dim)                                                                        \
   template double face_velocity(const Mesh<dim> &, const NodeVector<dim> &, const LocalIndex); \
+  template bool mean_of_neighbours(const Mesh<dim> &,                                           \
+                                   const NodeVector<dim> &,                                     \
+                                   const Vector &,                                              \
+                                   const LocalIndex,                                            \
+                                   Tensor<1, dim> &);                                           \
   template void least_squares(const LiquidDomain<dim> &, const Vector &, NodeVector<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

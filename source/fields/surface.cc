@@ -36,7 +36,6 @@ namespace treacle
                 facet[i] = it->second;
               }
             surface.facets.push_back(facet);
-            surface.cells.push_back(c);
           }
       }
     return surface;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/fields/mapping.h>
 #include <treacle/mesh/tracer.h>
 #include <treacle/steps/advection.h>
 #include <treacle/steps/redistance.h>
@@ -28,24 +29,15 @@ namespace treacle
           known.update_ghost_values();
           const Vector was_free = free;
           was_free.update_ghost_values();
+          Tensor<1, dim> mean;
           for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
             {
-              if (was_free.local_element(node) > 0)
-                continue;
-              Tensor<1, dim> sum;
-              double         n = 0;
-              for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
-                for (const LocalIndex other : mesh.cell_nodes[mesh.node_cells[k]])
-                  if (was_free.local_element(other) > 0)
-                    {
-                      sum += known.value(other);
-                      ++n;
-                    }
-              if (n == 0)
+              if (was_free.local_element(node) > 0 ||
+                  !mean_of_neighbours(mesh, known, was_free, node, mean))
                 continue;
               for (unsigned int d = 0; d < dim; ++d)
                 if (domain.constrained[node] >> d & 1)
-                  v.component[d].local_element(node) = sum[d] / n;
+                  v.component[d].local_element(node) = mean[d];
               free.local_element(node) = 1;
             }
         }

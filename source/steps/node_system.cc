@@ -8,29 +8,13 @@ namespace treacle
   template <int dim>
   NodeSystem<dim>::NodeSystem(const LiquidDomain<dim> &domain)
     : domain(domain)
+    , numbering(domain.mesh.nodes, domain.is_active_node, dim)
+    , owned_nodes(numbering.owned)
+    , number(numbering.number)
+    , rows(numbering.rows)
     , slot(domain.mesh.node_position.size(), invalid)
   {
-    const Mesh<dim> &mesh = domain.mesh;
-    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      if (domain.is_active_node[node])
-        owned_nodes.push_back(node);
-    const GlobalIndex n_owned = owned_nodes.size();
-    GlobalIndex       first   = 0;
-    MPI_Exscan(&n_owned, &first, 1, DEAL_II_DOF_INDEX_MPI_TYPE, MPI_SUM, mesh.communicator());
-    const GlobalIndex n = Utilities::MPI::sum(n_owned, mesh.communicator());
-
-    Vector ids = mesh.zeros(mesh.nodes);
-    for (unsigned int i = 0; i < n_owned; ++i)
-      ids.local_element(owned_nodes[i]) = first + i + 1;
-    ids.update_ghost_values();
-    number.resize(mesh.node_position.size());
-    for (LocalIndex node = 0; node < number.size(); ++node)
-      number[node] = ids.local_element(node) > 0 ?
-                       static_cast<GlobalIndex>(ids.local_element(node)) - 1 :
-                       numbers::invalid_dof_index;
-    rows.set_size(dim * n);
-    rows.add_range(dim * first, dim * (first + n_owned));
-
+    const Mesh<dim>        &mesh = domain.mesh;
     std::vector<LocalIndex> columns;
     for (const LocalIndex node : owned_nodes)
       {

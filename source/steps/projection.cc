@@ -25,24 +25,11 @@ namespace treacle
   Projection<dim>::Projection(const Parameters &parameters, const LiquidDomain<dim> &domain)
     : prm(parameters)
     , domain(domain)
+    , numbering(domain.mesh.cells, domain.is_pressure_cell)
+    , owned_cells(numbering.owned)
+    , number(numbering.number)
+    , rows(numbering.rows)
   {
-    const Mesh<dim> &mesh = domain.mesh;
-    for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
-      if (domain.is_pressure_cell[c])
-        owned_cells.push_back(c);
-    const GlobalIndex n_owned = owned_cells.size();
-    GlobalIndex       first   = 0;
-    MPI_Exscan(&n_owned, &first, 1, DEAL_II_DOF_INDEX_MPI_TYPE, MPI_SUM, mesh.communicator());
-    Vector ids = mesh.zeros(mesh.cells);
-    for (unsigned int i = 0; i < n_owned; ++i)
-      ids.local_element(owned_cells[i]) = first + i + 1;
-    ids.update_ghost_values();
-    number.resize(mesh.cell_nodes.size());
-    for (LocalIndex c = 0; c < number.size(); ++c)
-      number[c] = ids.local_element(c) > 0 ? static_cast<GlobalIndex>(ids.local_element(c)) - 1 :
-                                             numbers::invalid_dof_index;
-    rows.set_size(Utilities::MPI::sum(n_owned, mesh.communicator()));
-    rows.add_range(first, first + n_owned);
     find_closed_pockets();
     assemble();
     solver = std::make_unique<LinearSolver>(prm.solver, "Pressure", *matrix);

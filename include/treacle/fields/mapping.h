@@ -14,6 +14,16 @@ namespace treacle
   double
   face_velocity(const Mesh<dim> &mesh, const NodeVector<dim> &v, const LocalIndex face);
 
+  /// Mean of v over the neighbours of an owned node where @p counts is positive, each
+  /// as often as they share a cell. Returns whether there is one.
+  template <int dim>
+  bool
+  mean_of_neighbours(const Mesh<dim>       &mesh,
+                     const NodeVector<dim> &v,
+                     const Vector          &counts,
+                     const LocalIndex       node,
+                     Tensor<1, dim>        &mean);
+
   /// H: node velocity from the liquid faces around a node by least squares,
   /// `(N^T N)^-1 N^T u` (the paper, section 4.3). Nodes where singular values below
   /// 0.1 of the largest would have to be cut are invalid: they receive the mean of

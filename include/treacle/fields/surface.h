@@ -25,7 +25,6 @@ namespace treacle
     std::vector<Vertex>                       vertices; ///< each once on this rank
     std::vector<Point<dim>>                   positions; ///< of the vertices (m)
     std::vector<std::array<unsigned int, dim>> facets;  ///< vertex indices
-    std::vector<LocalIndex>                   cells;    ///< the cell of each facet
 
     std::array<Point<dim>, dim>
     facet_points(const unsigned int facet) const

@@ -6,6 +6,7 @@
 
 #include <treacle/fields/liquid_domain.h>
 #include <treacle/steps/linear_solver.h>
+#include <treacle/steps/numbering.h>
 
 namespace treacle
 {
@@ -18,6 +19,8 @@ namespace treacle
   {
   public:
     explicit NodeSystem(const LiquidDomain<dim> &domain);
+
+    NodeSystem(const NodeSystem &) = delete;
 
     /// Which mass a matrix holds: the lumped one of the nodes (M), or that of
     /// the faces seen from the nodes (P^T M_f P).
@@ -70,10 +73,11 @@ namespace treacle
                   std::vector<LocalIndex>     &columns,
                   std::vector<Tensor<2, dim>> &blocks) const;
 
-    std::vector<LocalIndex>         owned_nodes; ///< active and owned
+    const Numbering                 numbering; ///< of the active nodes
+    const std::vector<LocalIndex>  &owned_nodes;
+    const std::vector<GlobalIndex> &number;
+    const IndexSet                 &rows;
     std::vector<unsigned int>       row_lengths;
-    std::vector<GlobalIndex>        number;      ///< of each known node, or invalid_dof_index
-    IndexSet                        rows;
     mutable std::vector<LocalIndex> slot; ///< scratch: node -> place in columns
   };
 } // namespace treacle

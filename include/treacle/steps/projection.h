@@ -6,6 +6,7 @@
 
 #include <treacle/fields/liquid_domain.h>
 #include <treacle/steps/linear_solver.h>
+#include <treacle/steps/numbering.h>
 
 namespace treacle
 {
@@ -27,6 +28,8 @@ namespace treacle
     };
 
     Projection(const Parameters &parameters, const LiquidDomain<dim> &domain);
+
+    Projection(const Projection &) = delete;
 
     /// Is a projection the first of its step, or does it correct an earlier one?
     enum class Pass
@@ -63,9 +66,10 @@ namespace treacle
     const Parameters         prm;
     const LiquidDomain<dim> &domain;
 
-    std::vector<LocalIndex>  owned_cells; ///< pressure cells
-    std::vector<GlobalIndex> number;      ///< of each known cell, or invalid_dof_index
-    IndexSet                 rows;
+    const Numbering                 numbering; ///< of the pressure cells
+    const std::vector<LocalIndex>  &owned_cells;
+    const std::vector<GlobalIndex> &number;
+    const IndexSet                 &rows;
     /// Pockets without a free surface: the pressure cells of this rank in each,
     /// and how many there are on all ranks. One cell of each is pinned.
     struct Pocket
