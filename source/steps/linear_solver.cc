@@ -43,6 +43,9 @@ namespace treacle
       Teuchos::ParameterList list;
       ML_Epetra::SetDefaults("SA", list);
       list.set("ML output", 0);
+      // the other ways to estimate eigenvalues start from random numbers, and a
+      // resumed run would not be the same bit for bit
+      list.set("eigen-analysis: type", "Anorm");
       list.set("smoother: type", "Chebyshev");
       list.set("smoother: sweeps", 2);
       list.set("smoother: Chebyshev alpha", 10.);
