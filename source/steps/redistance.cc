@@ -63,10 +63,14 @@ namespace treacle
     /// radius 6.4 h that moves by 2.9 h in 20 steps: volume +5e-3, not 2e-4).
     constexpr double kept_layers = 3;
 
-    bool
-    is_unit(const double length)
+    /// How far the length of a gradient may be from 1 where phi is left alone; beyond
+    /// twice as much it is replaced, and in between blended, lest kinks appear.
+    constexpr double tolerance = 0.05;
+
+    double
+    weight_of_kept(const double length)
     {
-      return std::abs(length - 1) < 0.1;
+      return std::min(1., std::max(0., 2 - std::abs(length - 1) / tolerance));
     }
   } // namespace
 
@@ -101,21 +105,26 @@ namespace treacle
             mean_gradient(mesh, state.phi, node, [&](const LocalIndex c) { return is_cut_cell[c]; });
           // where the directions differ, at kinks and in thin parts, a short gradient
           // says nothing of the distance, and to scale by it would let them grow
-          if (!is_unit(g.length) && g.mean.norm() > 0.95 * g.length)
-            phi.local_element(node) /= g.length;
+          if (g.mean.norm() > 0.95 * g.length)
+            phi.local_element(node) *=
+              std::min(std::max(g.length, 1 - tolerance), 1 + tolerance) / g.length;
         }
     phi.update_ghost_values();
 
     const SurfaceDistance<dim> surface(mesh, phi, reach);
     const NodeVector<dim>      gradient = nodal_gradient(mesh, state.phi);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      if (!is_cut[node] && !(std::abs(phi.local_element(node)) < kept_layers * mesh.finest_size() &&
-                             is_unit(gradient.value(node).norm())))
-        {
-          const double distance =
-            std::min(surface.nearest(mesh.node_position[node]).distance, reach);
-          phi.local_element(node) = phi.local_element(node) < 0 ? -distance : distance;
-        }
+      {
+        double      &value = phi.local_element(node);
+        const double kept  = std::abs(value) < kept_layers * mesh.finest_size() ?
+                               weight_of_kept(gradient.value(node).norm()) :
+                               0.;
+        if (is_cut[node] || kept == 1)
+          continue;
+        const double distance =
+          std::min(surface.nearest(mesh.node_position[node]).distance, reach);
+        value = kept * value + (1 - kept) * (value < 0 ? -distance : distance);
+      }
     phi.update_ghost_values();
     state.phi = phi;
     state.phi.update_ghost_values();
