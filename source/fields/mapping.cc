@@ -57,6 +57,17 @@ namespace treacle
 
   template <int dim>
   void
+  set_prescribed(const LiquidDomain<dim> &domain, NodeVector<dim> &v)
+  {
+    for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (domain.constrained[node] >> d & 1)
+          v.component[d].local_element(node) = domain.prescribed[node][d];
+    v.update_ghost_values();
+  }
+
+  template <int dim>
+  void
   least_squares(const LiquidDomain<dim> &domain, const Vector &u, NodeVector<dim> &v)
   {
     const Mesh<dim> &mesh = domain.mesh;
@@ -96,11 +107,7 @@ namespace treacle
     v.update_ghost_values();
     is_valid.update_ghost_values();
     fill_invalid(domain, is_valid, v);
-    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      for (unsigned int d = 0; d < dim; ++d)
-        if (domain.constrained[node] >> d & 1)
-          v.component[d].local_element(node) = domain.prescribed[node][d];
-    v.update_ghost_values();
+    set_prescribed(domain, v);
   }
 
 #define INSTANTIATE(dim)                                                                        \
@@ -110,6 +117,7 @@ namespace treacle
                                    const Vector &,                                              \
                                    const LocalIndex,                                            \
                                    Tensor<1, dim> &);                                           \
+  template void set_prescribed(const LiquidDomain<dim> &, NodeVector<dim> &);                   \
   template void least_squares(const LiquidDomain<dim> &, const Vector &, NodeVector<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -38,11 +38,7 @@ namespace treacle
     for (unsigned int i = 0; i < nodes.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
         state.v.component[d].local_element(nodes[i]) = values[i * dim + d];
-    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      for (unsigned int d = 0; d < dim; ++d)
-        if (domain.constrained[node] >> d & 1)
-          state.v.component[d].local_element(node) = domain.prescribed[node][d];
-    state.v.update_ghost_values();
+    set_prescribed(domain, state.v);
 
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       if (!domain.is_liquid_face(f))

@@ -118,7 +118,7 @@ namespace treacle
         for (unsigned int a = 0; a < dim; ++a)
           {
             const GlobalIndex row = dim * number[node] + a;
-            // a component that nothing holds
+            // 1 for a component that nothing holds, lest the matrix be singular
             const double diagonal = blocks[0][a][a] > 0 ? blocks[0][a][a] : 1;
             indices.assign(1, row);
             values.assign(1, diagonal);

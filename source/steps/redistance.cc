@@ -42,6 +42,12 @@ namespace treacle
       result.length /= volume;
       return result;
     }
+
+    bool
+    all_cells(const LocalIndex)
+    {
+      return true;
+    }
   } // namespace
 
   template <int dim>
@@ -50,7 +56,7 @@ namespace treacle
   {
     NodeVector<dim> gradient(mesh.nodes);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      gradient.set(node, mean_gradient(mesh, field, node, [](const LocalIndex) { return true; }).mean);
+      gradient.set(node, mean_gradient(mesh, field, node, all_cells).mean);
     gradient.update_ghost_values();
     return gradient;
   }
@@ -112,14 +118,16 @@ namespace treacle
     phi.update_ghost_values();
 
     const SurfaceDistance<dim> surface(mesh, phi, reach);
-    const NodeVector<dim>      gradient = nodal_gradient(mesh, state.phi);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
+        if (is_cut[node])
+          continue;
         double      &value = phi.local_element(node);
-        const double kept  = std::abs(value) < kept_layers * mesh.finest_size() ?
-                               weight_of_kept(gradient.value(node).norm()) :
-                               0.;
-        if (is_cut[node] || kept == 1)
+        const double kept =
+          std::abs(value) < kept_layers * mesh.finest_size() ?
+            weight_of_kept(mean_gradient(mesh, state.phi, node, all_cells).mean.norm()) :
+            0.;
+        if (kept == 1)
           continue;
         const double distance =
           std::min(surface.nearest(mesh.node_position[node]).distance, reach);

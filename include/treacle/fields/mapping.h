@@ -24,6 +24,11 @@ namespace treacle
                      const LocalIndex       node,
                      Tensor<1, dim>        &mean);
 
+  /// Set the prescribed components at owned nodes and update the ghosts of v.
+  template <int dim>
+  void
+  set_prescribed(const LiquidDomain<dim> &domain, NodeVector<dim> &v);
+
   /// H: node velocity from the liquid faces around a node by least squares,
   /// `(N^T N)^-1 N^T u` (the paper, section 4.3). Nodes where singular values below
   /// 0.1 of the largest would have to be cut are invalid: they receive the mean of

@@ -16,8 +16,8 @@ namespace treacle
 
   /// Make phi a signed distance, within @p reach (m) of the surface and clamped
   /// beyond. The surface stays where it is: near it phi is left alone where it is a
-  /// distance well enough, and nodes of cut cells are only ever divided by the length
-  /// of the gradient.
+  /// distance well enough, and nodes of cut cells are only ever scaled towards a
+  /// gradient of length 1.
   template <int dim>
   void
   redistance(State<dim> &state, const double reach);
