@@ -83,7 +83,10 @@ namespace
   {
     ParameterHandler                    prm;
     typename Simulator<dim>::Parameters parameters;
-    parameters.add_parameters(prm, file.count("Liquid"), file.count("Solid"));
+    parameters.add_parameters(prm,
+                              file.count("Liquid"),
+                              file.count("Solid"),
+                              file.count("Emitter"));
     file.parse(prm);
     std::ostringstream text;
     prm.print_parameters(text,

@@ -5,6 +5,8 @@
 #include <treacle/base/files.h>
 #include <treacle/simulator.h>
 #include <treacle/steps/advection.h>
+#include <treacle/steps/emission.h>
+#include <treacle/steps/material_extension.h>
 #include <treacle/steps/redistance.h>
 #include <treacle/steps/remesh.h>
 
@@ -17,14 +19,15 @@ namespace treacle
   void
   Simulator<dim>::Parameters::add_parameters(ParameterHandler  &handler,
                                              const unsigned int n_liquids,
-                                             const unsigned int n_solids)
+                                             const unsigned int n_solids,
+                                             const unsigned int n_emitters)
   {
     handler.add_parameter("Dimension", dimension, "Of space.", Patterns::Integer(2, 3));
     handler.add_parameter("Output directory",
                           output_directory,
                           "Where everything that a run writes goes.");
     time_step.add_parameters(handler);
-    scene.add_parameters(handler, n_liquids, n_solids);
+    scene.add_parameters(handler, n_liquids, n_solids, n_emitters);
     mesh.add_parameters(handler);
     tracking.add_parameters(handler);
     reconstruction.add_parameters(handler);
@@ -121,8 +124,13 @@ namespace treacle
       }
     throw_first(comm, error);
     state->phi.update_ghost_values();
-    check_liquids();
+    check_bodies();
     redistance(*state, reach);
+    if (scene.has_advected_material())
+      {
+        set_initial_material(*state, scene);
+        extend_material(*state, n_layers());
+      }
 
     domain = std::make_unique<LiquidDomain<dim>>(*state, scene, prm.projection.minimum_theta);
     volume = domain->total_volume();
@@ -155,6 +163,8 @@ namespace treacle
     require(std::abs(time_step.frame_time(frame) - state->time) <= 1e-9 * state->time,
             "Frame interval: it must be the one of the run that is resumed, for frame " +
               std::to_string(frame) + " is at t = " + Utilities::to_string(state->time) + " s.");
+    require(state->material.has_value() == scene.has_advected_material(),
+            "Material/Transport: it must be the one of the run that is resumed.");
     volume                  = progress.scalars.at("volume");
     reach                   = (prm.time_step.cfl + 3) * state->mesh->finest_size();
     domain = std::make_unique<LiquidDomain<dim>>(*state, scene, prm.projection.minimum_theta);
@@ -177,25 +187,28 @@ namespace treacle
 
   template <int dim>
   void
-  Simulator<dim>::check_liquids() const
+  Simulator<dim>::check_bodies() const
   {
-    const Mesh<dim> &mesh = *state->mesh;
+    const Mesh<dim> &mesh  = *state->mesh;
+    const auto       check = [&](const std::string &name, const auto &distance) {
+      bool in_box = false, outside_solids = false;
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        if (const Point<dim> &x = mesh.node_position[node]; distance(x) < 0)
+          {
+            in_box         = true;
+            outside_solids = outside_solids || scene.solid_distance(x, 0) > 0;
+          }
+      require(Utilities::MPI::max(in_box ? 1 : 0, comm) == 1,
+              name + " lies outside the box, or is smaller than the cells: move it, change "
+                     "Domain/Lower corner and Upper corner, or raise Mesh/Surface level.");
+      require(Utilities::MPI::max(outside_solids ? 1 : 0, comm) == 1,
+              name + " lies inside a solid: move one of them.");
+    };
     for (unsigned int k = 0; k < scene.n_liquids(); ++k)
-      {
-        bool in_box = false, outside_solids = false;
-        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-          if (scene.liquid_distance(k, mesh.node_position[node]) < 0)
-            {
-              in_box         = true;
-              outside_solids = outside_solids || scene.solid_distance(mesh.node_position[node], 0) > 0;
-            }
-        const std::string liquid = "Liquid " + std::to_string(k + 1);
-        require(Utilities::MPI::max(in_box ? 1 : 0, comm) == 1,
-                liquid + " lies outside the box, or is smaller than the cells: move it, change "
-                         "Domain/Lower corner and Upper corner, or raise Mesh/Surface level.");
-        require(Utilities::MPI::max(outside_solids ? 1 : 0, comm) == 1,
-                liquid + " lies inside a solid: move one of them.");
-      }
+      check("Liquid " + std::to_string(k + 1),
+            [&](const Point<dim> &x) { return scene.liquid_distance(k, x); });
+    for (const Emitter<dim> &emitter : scene.emitters())
+      check(emitter.where, [&](const Point<dim> &x) { return emitter.signed_distance(x); });
   }
 
   template <int dim>
@@ -205,7 +218,7 @@ namespace treacle
     const Advection<dim> advection(*state, *domain);
     const auto           mesh = [&] {
       const auto section = timing.section("mesh");
-      return mesh_for_next_surface(*state, advection, dt);
+      return mesh_for_next_surface(*state, scene, advection, dt);
     }();
     info.rebuilt = mesh != state->mesh;
     State<dim> next = [&] {
@@ -214,7 +227,11 @@ namespace treacle
     }();
     {
       const auto section = timing.section("surface");
+      info.emitted = emit(next, scene, dt);
+      volume += info.emitted;
       tracking.advance(next, scene, reach, volume);
+      if (next.material)
+        extend_material(next, n_layers());
     }
     if (!info.rebuilt) // the first guess of the next solves
       next.v = state->v;

@@ -46,7 +46,8 @@ namespace treacle
       void
       add_parameters(ParameterHandler  &prm,
                      const unsigned int n_liquids,
-                     const unsigned int n_solids);
+                     const unsigned int n_solids,
+                     const unsigned int n_emitters = 0);
     };
 
     /// @p parameters_as_used is the text for the file parameters.prm. Throws a
@@ -70,7 +71,14 @@ namespace treacle
     write_parameters() const;
 
     void
-    check_liquids() const;
+    check_bodies() const;
+
+    /// Of cells, from the surface into the air, that the liquid may cross in a step.
+    unsigned int
+    n_layers() const
+    {
+      return static_cast<unsigned int>(std::ceil(prm.time_step.cfl)) + 3;
+    }
 
     void
     step(const double dt);

@@ -4,18 +4,20 @@
 #include <treacle/base/exchange.h>
 #include <treacle/fields/liquid_domain.h>
 
+#include <numeric>
+
 namespace treacle
 {
   namespace
   {
     template <int dim>
     std::vector<double>
-    solid_distances(const State<dim> &state, const Scene<dim> &scene)
+    solid_distances(const Mesh<dim> &mesh, const Scene<dim> &scene, const double time)
     {
       std::vector<double> psi;
-      psi.reserve(state.mesh->node_position.size());
-      for (const Point<dim> &x : state.mesh->node_position)
-        psi.push_back(scene.solid_distance(x, state.time));
+      psi.reserve(mesh.node_position.size());
+      for (const Point<dim> &x : mesh.node_position)
+        psi.push_back(scene.solid_distance(x, time));
       return psi;
     }
 
@@ -32,14 +34,16 @@ namespace treacle
 
   template <int dim>
   double
-  liquid_volume(const State<dim> &state, const Scene<dim> &scene)
+  liquid_volume(const Mesh<dim>  &mesh,
+                const Vector     &phi,
+                const Scene<dim> &scene,
+                const double      time)
   {
-    const Mesh<dim>          &mesh   = *state.mesh;
-    const std::vector<double> psi    = solid_distances(state, scene);
+    const std::vector<double> psi    = solid_distances(mesh, scene, time);
     double                    volume = 0;
     for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
       volume += liquid_moments<dim>(mesh.cell_vertices(c),
-                                    mesh.values(c, state.phi),
+                                    mesh.values(c, phi),
                                     cell_values(mesh, c, psi))
                   .volume;
     return Utilities::MPI::sum(volume, mesh.communicator());
@@ -53,10 +57,28 @@ namespace treacle
     , scene(scene)
     , minimum_theta(minimum_theta)
   {
-    solid_distance = solid_distances(state, scene);
+    scene.check_solids(state.time);
+    solid_distance = solid_distances(mesh, scene, state.time);
+    find_emitters(state.time);
     measure_cells(state);
     measure_faces(state);
     measure_nodes(state);
+  }
+
+  template <int dim>
+  void
+  LiquidDomain<dim>::find_emitters(const double time)
+  {
+    held_distance = solid_distance;
+    is_emitter_node.assign(solid_distance.size(), 0);
+    if (scene.emitters().empty())
+      return;
+    for (LocalIndex node = 0; node < held_distance.size(); ++node)
+      {
+        const double distance = scene.emitter_distance(mesh.node_position[node], time);
+        is_emitter_node[node] = distance <= 0 && solid_distance[node] > 0;
+        held_distance[node]   = std::min(held_distance[node], distance);
+      }
   }
 
   template <int dim>
@@ -79,7 +101,8 @@ namespace treacle
         const VertexValues<dim> psi = cell_values(mesh, c, solid_distance);
         const Simplex<dim>  x       = mesh.cell_vertices(c);
         const Moments<dim>  moments = liquid_moments<dim>(x, phi, psi);
-        const bool          is_open = *std::max_element(psi.begin(), psi.end()) > 0;
+        const VertexValues<dim> held = cell_values(mesh, c, held_distance);
+        const bool is_open = *std::max_element(held.begin(), held.end()) > 0;
         dual_distance[c]            = phi[0];
         for (unsigned int i = 0; i <= dim; ++i)
           dual_distance[c] += phi[i] * (mesh.cell_gradients[c][i] * (mesh.cell_dual[c] - x[0]));
@@ -90,10 +113,28 @@ namespace treacle
           continue;
         liquid_centre[c] = moments.volume > 0 ? Point<dim>(moments.first / moments.volume) :
                                                 mesh.cell_dual[c];
-        keep_error(error, [&] {
-          viscosity[c] = scene.viscosity(liquid_centre[c], state.time);
-          density[c]   = scene.density(liquid_centre[c], state.time);
-        });
+        if (state.material)
+          {
+            // P1: the value at the centroid is the mean over the liquid part
+            VertexValues<dim> lambda;
+            for (unsigned int i = 0; i <= dim; ++i)
+              lambda[i] = (i == 0) + mesh.cell_gradients[c][i] * (liquid_centre[c] - x[0]);
+            const auto mean = [&](const Vector &field) {
+              const VertexValues<dim> values = mesh.values(c, field);
+              const double            value =
+                std::inner_product(lambda.begin(), lambda.end(), values.begin(), 0.);
+              // the dual centre, which stands in for it, may lie outside of its cell
+              const auto [lower, upper] = std::minmax_element(values.begin(), values.end());
+              return std::min(std::max(value, *lower), *upper);
+            };
+            viscosity[c] = mean(state.material->viscosity);
+            density[c]   = mean(state.material->density);
+          }
+        else
+          keep_error(error, [&] {
+            viscosity[c] = scene.viscosity(liquid_centre[c], state.time);
+            density[c]   = scene.density(liquid_centre[c], state.time);
+          });
       }
     throw_first(mesh.communicator(), error);
   }
@@ -109,11 +150,12 @@ namespace treacle
 
     Vector      mass = mesh.zeros(mesh.faces), part = mesh.zeros(mesh.faces);
     unsigned int n_clamped = 0;
+    std::string  error;
     for (LocalIndex f = 0; f < n; ++f)
       {
         VertexValues<dim - 1> solid;
         for (unsigned int i = 0; i < dim; ++i)
-          solid[i] = -solid_distance[mesh.face_nodes[f][i]];
+          solid[i] = -held_distance[mesh.face_nodes[f][i]];
         open_fraction[f]   = negative_fraction<dim - 1>(solid);
         const Point<dim> x = mesh.face_centre[f];
         if (mesh.face_side[f] != Mesh<dim>::no_side)
@@ -122,7 +164,13 @@ namespace treacle
             continue;
           }
         if (open_fraction[f] < 1)
-          solid_velocity[f] = scene.solid_velocity(x, state.time) * mesh.face_normal[f];
+          keep_error(error, [&] {
+            const bool in_emitter =
+              scene.emitter_distance(x, state.time) < scene.solid_distance(x, state.time);
+            solid_velocity[f] = (in_emitter ? scene.emitter_velocity(x, state.time) :
+                                              scene.solid_velocity(x, state.time)) *
+                                mesh.face_normal[f];
+          });
         if (f >= mesh.n_owned_faces() || open_fraction[f] == 0)
           continue;
 
@@ -146,6 +194,7 @@ namespace treacle
         mass.local_element(f) =
           rho * open_fraction[f] * mesh.face_area[f] * t * mesh.face_dual_length[f];
       }
+    throw_first(mesh.communicator(), error);
     n_clamped_faces = Utilities::MPI::sum(n_clamped, mesh.communicator());
     mass.update_ghost_values();
     part.update_ghost_values();
@@ -177,6 +226,7 @@ namespace treacle
     active.update_ghost_values();
     is_active_node.resize(n);
     constexpr unsigned char all = (1u << dim) - 1;
+    std::string             error;
     for (LocalIndex node = 0; node < n; ++node)
       {
         is_active_node[node] = active.local_element(node) > 0;
@@ -188,7 +238,15 @@ namespace treacle
             prescribed[node]  = scene.solid_velocity(mesh.node_position[node], state.time);
             constrained[node] = all;
           }
+        else if (is_emitter_node[node])
+          {
+            keep_error(error, [&] {
+              prescribed[node] = scene.emitter_velocity(mesh.node_position[node], state.time);
+            });
+            constrained[node] = all;
+          }
       }
+    throw_first(mesh.communicator(), error);
   }
 
   template <int dim>
@@ -202,9 +260,9 @@ namespace treacle
   }
 
   template double
-  liquid_volume(const State<2> &, const Scene<2> &);
+  liquid_volume(const Mesh<2> &, const Vector &, const Scene<2> &, const double);
   template double
-  liquid_volume(const State<3> &, const Scene<3> &);
+  liquid_volume(const Mesh<3> &, const Vector &, const Scene<3> &, const double);
   template class LiquidDomain<2>;
   template class LiquidDomain<3>;
 } // namespace treacle

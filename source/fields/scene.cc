@@ -79,34 +79,20 @@ namespace treacle
       return result;
     }
 
-    template <int dim>
-    [[noreturn]] void
-    value_error(const std::string &name,
-                const double       value,
-                const std::string &allowed,
-                const Point<dim>  &x,
-                const double       t)
-    {
-      std::ostringstream message;
-      message << name << " is " << value << " at x = (" << x << ") and t = " << t
-              << " s, but must be " << allowed << " in the liquid at all times.";
-      throw UserError(message.str());
-    }
-
     /// The entry with the smallest distance (there is at least one), and it.
-    template <int dim>
-    std::pair<unsigned int, double>
-    nearest(const std::vector<Shape<dim>> &shapes, const Point<dim> &x)
+    template <typename Body, typename Distance>
+    std::pair<const Body *, double>
+    nearest(const std::vector<Body> &bodies, const Distance &distance_of)
     {
-      std::pair<unsigned int, double> result(0, shapes[0].signed_distance(x));
-      for (unsigned int k = 1; k < shapes.size(); ++k)
-        {
-          const double distance = shapes[k].signed_distance(x);
-          if (distance < result.second)
-            result = {k, distance};
-        }
+      std::pair<const Body *, double> result(nullptr, std::numeric_limits<double>::infinity());
+      for (const Body &body : bodies)
+        if (const double distance = distance_of(body); result.first == nullptr || distance < result.second)
+          result = {&body, distance};
       return result;
     }
+
+    /// What stands for a distance from nothing (m): finite, for it is interpolated.
+    constexpr double far_away = 1e30;
   } // namespace
 
 
@@ -115,7 +101,8 @@ namespace treacle
   void
   Scene<dim>::Parameters::add_parameters(ParameterHandler  &prm,
                                          const unsigned int n_liquids,
-                                         const unsigned int n_solids)
+                                         const unsigned int n_solids,
+                                         const unsigned int n_emitters)
   {
     const std::string variables = (dim == 2 ? "x,y,t" : "x,y,z,t");
     const std::string vector =
@@ -136,19 +123,13 @@ namespace treacle
     prm.leave_subsection();
 
     prm.enter_subsection("Material");
-    prm.add_parameter("Density",
-                      density,
-                      "Density (kg/m^3; 2D: kg/m^2): a formula in " + variables +
-                        ", positive in the liquid.");
-    prm.add_parameter("Viscosity",
-                      viscosity,
-                      "Dynamic viscosity (Pa s): a formula in " + variables +
-                        ", not negative in the liquid.");
+    material.add_parameters(prm, ".");
     prm.add_parameter("Transport",
                       transport,
-                      "\"fixed\": density and viscosity are what the formulas say at a "
-                      "point and time.",
-                      Patterns::Selection("fixed"));
+                      "\"fixed\": density and viscosity are what the formulas say at a point and "
+                      "time. \"advected\": they are carried with the liquid, from their values at "
+                      "t = 0 or where an emitter pours it out.",
+                      Patterns::Selection("fixed|advected"));
     prm.leave_subsection();
 
     prm.enter_subsection("Gravity");
@@ -165,6 +146,8 @@ namespace treacle
         prm.add_parameter("Velocity",
                           liquids[k].velocity,
                           "Velocity (m/s) at the start" + vector);
+        liquids[k].material.add_parameters(prm,
+                                           "; as in Material if empty (Transport = advected).");
         prm.leave_subsection();
       }
     solids.resize(n_solids);
@@ -172,6 +155,13 @@ namespace treacle
       {
         prm.enter_subsection(numbered("Solid", k));
         solids[k].add_parameters(prm);
+        prm.leave_subsection();
+      }
+    emitters.resize(n_emitters);
+    for (unsigned int k = 0; k < n_emitters; ++k)
+      {
+        prm.enter_subsection(numbered("Emitter", k));
+        emitters[k].add_parameters(prm);
         prm.leave_subsection();
       }
   }
@@ -183,29 +173,45 @@ namespace treacle
     : lower(parameters.lower_corner)
     , upper(parameters.upper_corner)
     , sticks(parse_wall_condition<dim>(parameters.wall_condition))
-    , density_at(parameters.density, "Material/Density", true)
-    , viscosity_at(parameters.viscosity, "Material/Viscosity", true)
+    , material(parameters.material, "Material")
+    , advected_material(parameters.transport == "advected")
     , gravity_at(parameters.acceleration, "Gravity/Acceleration")
   {
     for (unsigned int d = 0; d < dim; ++d)
       require(lower[d] < upper[d],
               "Domain/Upper corner must exceed Domain/Lower corner in every component.");
-    if (density_at.is_constant())
-      density(lower, 0.);
-    if (viscosity_at.is_constant())
-      viscosity(lower, 0.);
-
-    require(!parameters.liquids.empty(),
-            "There is no liquid: the subsection Liquid 1 must describe one.");
+    require(!parameters.liquids.empty() || !parameters.emitters.empty(),
+            "There is no liquid: a subsection Liquid 1 or Emitter 1 must describe one.");
+    check_transport(parameters);
     for (unsigned int k = 0; k < parameters.liquids.size(); ++k)
       {
-        const std::string where = numbered("Liquid", k);
-        liquids.emplace_back(parameters.liquids[k].shape, where);
-        liquid_velocities.emplace_back(parameters.liquids[k].velocity,
-                                       where + "/Velocity");
+        const auto       &liquid = parameters.liquids[k];
+        const std::string where  = numbered("Liquid", k);
+        liquids.push_back({Shape<dim>(liquid.shape, where),
+                           VectorExpression<dim>(liquid.velocity, where + "/Velocity"),
+                           Material<dim>(liquid.material, where, &material)});
       }
     for (unsigned int k = 0; k < parameters.solids.size(); ++k)
-      solids.emplace_back(parameters.solids[k], numbered("Solid", k));
+      solids.emplace_back(parameters.solids[k],
+                          numbered("Solid", k),
+                          BoundingBox<dim>({lower, upper}));
+    for (unsigned int k = 0; k < parameters.emitters.size(); ++k)
+      emitter_list.emplace_back(parameters.emitters[k], numbered("Emitter", k), material);
+  }
+
+  template <int dim>
+  void
+  Scene<dim>::check_transport(const Parameters &parameters) const
+  {
+    const auto check = [&](const auto &list, const std::string &name) {
+      for (unsigned int k = 0; k < list.size(); ++k)
+        require(advected_material || list[k].material.is_empty(),
+                numbered(name, k) +
+                  " has a material of its own, which must travel with it: set "
+                  "Material/Transport = advected.");
+    };
+    check(parameters.liquids, "Liquid");
+    check(parameters.emitters, "Emitter");
   }
 
 
@@ -243,25 +249,44 @@ namespace treacle
   double
   Scene<dim>::liquid_distance(const unsigned int k, const Point<dim> &x) const
   {
-    return liquids[k].signed_distance(x);
+    return liquids[k].shape.signed_distance(x);
   }
 
   template <int dim>
   double
   Scene<dim>::liquid_distance(const Point<dim> &x) const
   {
-    return nearest<dim>(liquids, x).second;
+    const auto distance = [&](const Liquid &liquid) { return liquid.shape.signed_distance(x); };
+    // not min(), which may hide what is not a number
+    const double of_liquids = liquids.empty() ? far_away : nearest(liquids, distance).second;
+    const double of_emitter = emitter_distance(x, 0.);
+    return of_emitter < of_liquids ? of_emitter : of_liquids;
   }
 
   template <int dim>
   Tensor<1, dim>
   Scene<dim>::initial_velocity(const Point<dim> &x) const
   {
-    const unsigned int k = (liquids.size() == 1 ? 0 : nearest<dim>(liquids, x).first);
-    const Tensor<1, dim> value = liquid_velocities[k](x, 0.);
+    const auto [emitter, distance] = nearest_emitter(x, 0.);
+    if (distance < 0 || liquids.empty())
+      return emitter ? emitter->velocity(x, 0.) : Tensor<1, dim>();
+    const Liquid *liquid =
+      nearest(liquids, [&](const Liquid &l) { return l.shape.signed_distance(x); }).first;
+    const Tensor<1, dim> value = liquid->velocity(x, 0.);
     if (!std::isfinite(value.norm_square()))
-      value_error(numbered("Liquid", k) + "/Velocity", value.norm(), "finite", x, 0.);
+      value_error(numbered("Liquid", liquid - liquids.data()) + "/Velocity", value.norm(), "finite", x, 0.);
     return value;
+  }
+
+  template <int dim>
+  const Material<dim> &
+  Scene<dim>::initial_material(const Point<dim> &x) const
+  {
+    const auto [emitter, distance] = nearest_emitter(x, 0.);
+    if (distance < 0 || liquids.empty())
+      return emitter ? emitter->material : material;
+    return nearest(liquids, [&](const Liquid &l) { return l.shape.signed_distance(x); })
+      .first->material;
   }
 
   template <int dim>
@@ -273,38 +298,108 @@ namespace treacle
 
   template <int dim>
   double
-  Scene<dim>::solid_distance(const Point<dim> &x, const double) const
+  Scene<dim>::solid_distance(const Point<dim> &x, const double t) const
   {
-    return solids.empty() ? 1e30 : nearest<dim>(solids, x).second;
+    const auto distance = [&](const Solid<dim> &solid) { return solid.signed_distance(x, t); };
+    return solids.empty() ? far_away : nearest(solids, distance).second;
   }
 
   template <int dim>
   Tensor<1, dim>
-  Scene<dim>::solid_velocity(const Point<dim> &, const double) const
+  Scene<dim>::solid_velocity(const Point<dim> &x, const double t) const
   {
-    return Tensor<1, dim>();
+    const auto distance = [&](const Solid<dim> &solid) { return solid.signed_distance(x, t); };
+    return solids.empty() ? Tensor<1, dim>() : nearest(solids, distance).first->velocity(x, t);
+  }
+
+  template <int dim>
+  void
+  Scene<dim>::check_solids(const double t) const
+  {
+    for (const Solid<dim> &solid : solids)
+      solid.check(t);
   }
 
 
+
+  template <int dim>
+  const std::vector<Emitter<dim>> &
+  Scene<dim>::emitters() const
+  {
+    return emitter_list;
+  }
+
+  template <int dim>
+  std::pair<const Emitter<dim> *, double>
+  Scene<dim>::nearest_emitter(const Point<dim> &x, const double t) const
+  {
+    std::pair<const Emitter<dim> *, double> result(nullptr, far_away);
+    for (const Emitter<dim> &emitter : emitter_list)
+      if (emitter.is_at_work(t))
+        if (const double distance = emitter.signed_distance(x); distance < result.second)
+          result = {&emitter, distance};
+    return result;
+  }
+
+  template <int dim>
+  double
+  Scene<dim>::emitter_distance(const Point<dim> &x, const double t) const
+  {
+    return nearest_emitter(x, t).second;
+  }
+
+  template <int dim>
+  Tensor<1, dim>
+  Scene<dim>::emitter_velocity(const Point<dim> &x, const double t) const
+  {
+    const Emitter<dim> *emitter = nearest_emitter(x, t).first;
+    return emitter ? emitter->velocity(x, t) : Tensor<1, dim>();
+  }
+
+  template <int dim>
+  double
+  Scene<dim>::distance_to_emitter_boundary(const Point<dim> &x, const double t) const
+  {
+    double smallest = far_away;
+    for (const Emitter<dim> &emitter : emitter_list)
+      if (t < emitter.stop_time)
+        smallest = std::min(smallest, std::abs(emitter.signed_distance(x)));
+    return smallest;
+  }
+
+  template <int dim>
+  double
+  Scene<dim>::next_switch(const double t) const
+  {
+    double next = std::numeric_limits<double>::infinity();
+    for (const Emitter<dim> &emitter : emitter_list)
+      for (const double time : {emitter.start_time, emitter.stop_time})
+        if (time > t * (1 + 1e-12))
+          next = std::min(next, time);
+    return next;
+  }
+
+
+
+  template <int dim>
+  bool
+  Scene<dim>::has_advected_material() const
+  {
+    return advected_material;
+  }
 
   template <int dim>
   double
   Scene<dim>::density(const Point<dim> &x, const double t) const
   {
-    const double value = density_at(x, t);
-    if (!(value > 0 && std::isfinite(value)))
-      value_error("Material/Density", value, "positive", x, t);
-    return value;
+    return material.density(x, t);
   }
 
   template <int dim>
   double
   Scene<dim>::viscosity(const Point<dim> &x, const double t) const
   {
-    const double value = viscosity_at(x, t);
-    if (!(value >= 0 && std::isfinite(value)))
-      value_error("Material/Viscosity", value, "zero or positive", x, t);
-    return value;
+    return material.viscosity(x, t);
   }
 
   template <int dim>

@@ -141,6 +141,26 @@ namespace treacle
 
 
 
+  template <int dim>
+  void
+  value_error(const std::string &name,
+              const double       value,
+              const std::string &allowed,
+              const Point<dim>  &x,
+              const double       t)
+  {
+    std::ostringstream message;
+    message << name << " is " << value << " at x = (" << x << ") and t = " << t
+            << " s, but must be " << allowed << " in the liquid at all times.";
+    throw UserError(message.str());
+  }
+
+
+
+  template void
+  value_error(const std::string &, const double, const std::string &, const Point<2> &, const double);
+  template void
+  value_error(const std::string &, const double, const std::string &, const Point<3> &, const double);
   template class Expression<2>;
   template class Expression<3>;
   template class VectorExpression<2>;

@@ -68,9 +68,13 @@ namespace treacle
       return out.str();
     }
 
-    /// Level set and velocity at the nodes of a cell, face velocity, pressure.
+    /// Level set, velocity and material at the nodes of a cell, face velocity, pressure.
     template <int dim>
-    constexpr unsigned int row_size = (dim + 1) * (dim + 2) + 1;
+    unsigned int
+    row_size(const bool with_material)
+    {
+      return (dim + 1) * (dim + 2 + (with_material ? 2 : 0)) + 1;
+    }
 
     /// Call @p visit with each number of the rows of this rank's cells in turn.
     template <int dim, typename AnyState, typename Visit>
@@ -85,6 +89,11 @@ namespace treacle
               visit(state.phi, node, mesh.n_owned_nodes());
               for (unsigned int d = 0; d < dim; ++d)
                 visit(state.v.component[d], node, mesh.n_owned_nodes());
+              if (state.material)
+                {
+                  visit(state.material->density, node, mesh.n_owned_nodes());
+                  visit(state.material->viscosity, node, mesh.n_owned_nodes());
+                }
             }
           for (const LocalIndex face : mesh.cell_faces[c])
             visit(state.u, face, mesh.n_owned_faces());
@@ -104,6 +113,7 @@ namespace treacle
           << "\nRanks = " << Utilities::MPI::n_mpi_processes(mesh.communicator())
           << "\nTime = " << state.time << "\nStep = " << state.step
           << "\nFrame = " << progress.frame << "\nCells = " << mesh.cells->size()
+          << "\nAdvected material = " << (state.material ? "true" : "false")
           << "\nLower corner = " << to_text(prm.lower_corner)
           << "\nUpper corner = " << to_text(prm.upper_corner)
           << "\nRoot cells = " << prm.root_cells
@@ -134,7 +144,7 @@ namespace treacle
     TableFile<int>::write(comm, fresh + "/leaves", leaves);
 
     std::vector<double> rows;
-    rows.reserve(row_size<dim> * state.mesh->n_owned_cells());
+    rows.reserve(row_size<dim>(state.material.has_value()) * state.mesh->n_owned_cells());
     for_each_number<dim>(state,
                          [&](const Vector &v, const LocalIndex i, const LocalIndex) {
                            rows.push_back(v.local_element(i));
@@ -243,12 +253,15 @@ namespace treacle
     require(info.get("Cells") == std::to_string(mesh->cells->size()),
             "The checkpoint \"" + directory + "\" is damaged: its leaves do not make " +
               info.get("Cells") + " cells.");
-    const auto rows =
-      TableFile<double>::read(comm,
-                              directory + "/cells",
-                              row_size<dim> * mesh->cells->local_range().first,
-                              row_size<dim> * mesh->n_owned_cells());
+    const bool         with_material = info.get("Advected material") == "true";
+    const unsigned int n             = row_size<dim>(with_material);
+    const auto         rows          = TableFile<double>::read(comm,
+                                                directory + "/cells",
+                                                n * mesh->cells->local_range().first,
+                                                n * mesh->n_owned_cells());
     State<dim> state(mesh);
+    if (with_material)
+      state.material = CarriedMaterial(mesh->nodes);
     state.time = std::stod(info.get("Time"));
     state.step = std::stoul(info.get("Step"));
     auto next  = rows.begin();
@@ -259,6 +272,8 @@ namespace treacle
                              v.local_element(i) = *next;
                            ++next;
                          });
+    if (state.material)
+      state.material->update_ghost_values();
     state.phi.update_ghost_values();
     state.u.update_ghost_values();
     state.v.update_ghost_values();

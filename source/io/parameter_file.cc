@@ -181,7 +181,7 @@ namespace treacle
       append(setting);
     scan();
     if (name.empty())
-      n_numbered = {{"Liquid", 1}, {"Solid", 1}};
+      n_numbered = {{"Liquid", 1}, {"Solid", 1}, {"Emitter", 1}};
   }
 
   void

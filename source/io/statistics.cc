@@ -23,6 +23,13 @@ namespace treacle
       return dim == 2 ? "Liquid volume (m^2)" : "Liquid volume (m^3)";
     }
 
+    template <int dim>
+    std::string
+    emitted_name()
+    {
+      return dim == 2 ? "Emitted volume (m^2)" : "Emitted volume (m^3)";
+    }
+
     /// As the table shows it: a resumed run knows the first volume from there.
     double
     rounded(const double value)
@@ -112,7 +119,7 @@ namespace treacle
   Statistics<dim>::resume(const unsigned int step)
   {
     std::string           header, kept, error;
-    std::array<double, 2> restored{}; // volume of the first row, rebuilds
+    std::array<double, 3> restored{}; // volume of the first row, rebuilds, emitted volume
     if (Utilities::MPI::this_mpi_process(comm) == 0)
       {
         std::ifstream            file(path);
@@ -133,6 +140,7 @@ namespace treacle
               if (kept.empty())
                 restored[0] = column(volume_name<dim>());
               restored[1] = column("Rebuilds");
+              restored[2] = column(emitted_name<dim>());
               kept += line + '\n';
             }
         if (kept.empty())
@@ -147,6 +155,7 @@ namespace treacle
     has_first    = true;
     first_volume = restored[0];
     n_rebuilds   = std::lround(restored[1]);
+    emitted      = restored[2];
   }
 
   template <int dim>
@@ -161,6 +170,8 @@ namespace treacle
       first_volume = volume;
     has_first = true;
     n_rebuilds += info.rebuilt;
+    emitted                = rounded(emitted + info.emitted);
+    const double expected = first_volume + emitted;
 
     RowMaker<dim> add(row);
     add.count("Time step number", state.step);
@@ -170,7 +181,10 @@ namespace treacle
     add.count("Nodes", domain.mesh.nodes->size());
     add.count("Faces", domain.mesh.faces->size());
     add.number(volume_name<dim>(), measures.volume);
-    add.number("Volume drift", first_volume > 0 ? volume / first_volume - 1 : 0);
+    add.number("Volume drift", expected > 0 ? volume / expected - 1 : 0);
+    add.number(emitted_name<dim>(), emitted);
+    add.number(dim == 2 ? "Emission rate (m^2/s)" : "Emission rate (m^3/s)",
+               info.dt > 0 ? info.emitted / info.dt : 0);
     add.vector("Centre of mass", "m", measures.centre_of_mass, dim);
     add.vector("Liquid minimum", "m", measures.lower, dim);
     add.vector("Liquid maximum", "m", measures.upper, dim);

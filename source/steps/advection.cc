@@ -20,7 +20,8 @@ namespace treacle
       NodeVector<dim> v    = state.v;
       Vector            free = mesh.zeros(mesh.nodes);
       for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-        free.local_element(node) = domain.constrained[node] == 0;
+        free.local_element(node) =
+          domain.constrained[node] == 0 || domain.is_emitter_node[node];
       for (unsigned int layer = 0; layer < 3; ++layer)
         {
           free.update_ghost_values();
@@ -89,9 +90,24 @@ namespace treacle
 
     std::vector<Point<dim>> x(mesh->node_position.begin(),
                               mesh->node_position.begin() + mesh->n_owned_nodes());
-    const std::vector<double> phi = level_set(x, dt);
+    const Tracer<dim>             tracer(*old.mesh);
+    const std::vector<Point<dim>> from = tracer.trace(x, surface_velocity, -dt);
+    const std::vector<double>     phi =
+      tracer.evaluate(from, {{&old.phi, &phi_gradient, &phi_smoothness}});
     std::copy(phi.begin(), phi.end(), state.phi.begin());
     state.phi.update_ghost_values();
+    if (old.material)
+      {
+        const std::vector<double> material =
+          tracer.evaluate(from, {{&old.material->density}, {&old.material->viscosity}});
+        state.material.emplace(mesh->nodes);
+        for (LocalIndex node = 0; node < mesh->n_owned_nodes(); ++node)
+          {
+            state.material->density.local_element(node)   = material[2 * node];
+            state.material->viscosity.local_element(node) = material[2 * node + 1];
+          }
+        state.material->update_ghost_values();
+      }
 
     std::vector<LocalIndex> faces;
     x.clear();
@@ -103,7 +119,6 @@ namespace treacle
           faces.push_back(f);
           x.push_back(mesh->face_centre[f]);
         }
-    const Tracer<dim>           tracer(*old.mesh);
     std::vector<NodeField<dim>> fields;
     for (const Vector &component : old.v.component)
       fields.push_back({&component});

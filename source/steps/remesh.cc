@@ -39,6 +39,40 @@ namespace treacle
       return x;
     }
 
+    /// Is a leaf of an octree that is still growing within @p margin (m) of where a
+    /// distance vanishes?
+    template <int dim>
+    bool
+    is_within(const typename Octree<dim>::Parameters &prm,
+              const Leaf<dim>                        &leaf,
+              const double                            distance,
+              const double                            margin)
+    {
+      const double half_diagonal = 0.25 * std::sqrt(1. * dim) * prm.finest_size() * leaf.size;
+      return std::abs(distance) < half_diagonal + margin;
+    }
+
+    /// Leaves that the band touches, or that are as near to an emitter.
+    template <int dim>
+    std::vector<bool>
+    near_surface(const Band<dim>                        &band,
+                 const typename Octree<dim>::Parameters &prm,
+                 const Scene<dim>                       &scene,
+                 const double                            time,
+                 const std::vector<Leaf<dim>>           &leaves)
+    {
+      std::vector<bool> result = band.touches(leaves);
+      if (!scene.emitters().empty())
+        for (unsigned int i = 0; i < leaves.size(); ++i)
+          result[i] =
+            result[i] ||
+            is_within(prm,
+                      leaves[i],
+                      scene.distance_to_emitter_boundary(centre<dim>(prm, leaves[i]), time),
+                      prm.band_width * prm.finest_size());
+      return result;
+    }
+
     /// Refine where @p is_near says, inside the liquid to the interior level and
     /// everywhere to the air level.
     template <int dim>
@@ -87,18 +121,16 @@ namespace treacle
     };
     // first where the distance is small, then around what was found: an
     // expression need not be a distance
-    const double finest = prm.finest_size();
-    const auto   mesh   = build<dim>(
+    const auto mesh = build<dim>(
       comm,
       prm,
       [&](const std::vector<Leaf<dim>> &leaves) {
         std::vector<bool> near;
         for (const Leaf<dim> &leaf : leaves)
-          {
-            const double half_diagonal = 0.25 * std::sqrt(1. * dim) * finest * leaf.size;
-            near.push_back(std::abs(scene.liquid_distance(centre<dim>(prm, leaf))) <
-                           half_diagonal + finest);
-          }
+          near.push_back(is_within(prm,
+                                   leaf,
+                                   scene.liquid_distance(centre<dim>(prm, leaf)),
+                                   prm.finest_size()));
         return near;
       },
       phi);
@@ -110,12 +142,15 @@ namespace treacle
                          sample_points(extract_surface(*mesh, values)),
                          prm.band_width);
     return build<dim>(
-      comm, prm, [&](const auto &leaves) { return band.touches(leaves); }, phi);
+      comm, prm, [&](const auto &leaves) { return near_surface(band, prm, scene, 0., leaves); }, phi);
   }
 
   template <int dim>
   std::shared_ptr<const Mesh<dim>>
-  mesh_for_next_surface(const State<dim> &state, const Advection<dim> &advection, const double dt)
+  mesh_for_next_surface(const State<dim>     &state,
+                        const Scene<dim>     &scene,
+                        const Advection<dim> &advection,
+                        const double          dt)
   {
     const Mesh<dim>              &mesh   = *state.mesh;
     const Octree<dim>            &octree = mesh.octree();
@@ -127,15 +162,22 @@ namespace treacle
     return build<dim>(
       mesh.communicator(),
       octree.parameters(),
-      [&](const auto &leaves) { return band.touches(leaves); },
-      [&](const std::vector<Point<dim>> &x) { return advection.level_set(x, dt); });
+      [&](const auto &leaves) {
+        return near_surface(band, octree.parameters(), scene, state.time + dt, leaves);
+      },
+      [&](const std::vector<Point<dim>> &x) {
+        std::vector<double> phi = advection.level_set(x, dt);
+        for (unsigned int i = 0; i < x.size(); ++i)
+          phi[i] = std::min(phi[i], scene.emitter_distance(x[i], state.time + dt));
+        return phi;
+      });
   }
 
 #define INSTANTIATE(dim)                                                        \
   template std::shared_ptr<const Mesh<dim>> initial_mesh(                       \
     const MPI_Comm &, const Octree<dim>::Parameters &, const Scene<dim> &);     \
   template std::shared_ptr<const Mesh<dim>> mesh_for_next_surface(              \
-    const State<dim> &, const Advection<dim> &, const double);
+    const State<dim> &, const Scene<dim> &, const Advection<dim> &, const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

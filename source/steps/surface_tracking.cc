@@ -57,7 +57,7 @@ namespace treacle
         const double area = surface_area(state);
         if (area == 0)
           return;
-        const double wanted = offset + (liquid_volume(state, scene) - volume) / area;
+        const double wanted = offset + (liquid_volume(*state.mesh, state.phi, scene, state.time) - volume) / area;
         const double change = std::min(std::max(wanted, -largest), largest) - offset;
         offset += change;
         state.phi.zero_out_ghost_values();

@@ -40,8 +40,9 @@ namespace treacle
     if (v + std::sqrt(v * v + 4 * g * distance) > 0)
       dt = std::min(dt, 2 * distance / (v + std::sqrt(v * v + 4 * g * distance)));
 
-    // equal steps to the frame
-    const double left = frame_time(frame) - state.time;
+    // equal steps to the frame, or to where an emitter starts or stops
+    const double left =
+      std::min(frame_time(frame), domain.scene.next_switch(state.time)) - state.time;
     return left / std::max(1., std::ceil(left / dt - 1e-6));
   }
 

@@ -19,7 +19,7 @@ namespace tests
     typename Scene<dim>::Parameters parameters;
     parameters.liquids.resize(1);
     parameters.liquids[0].shape.radius = 0.3;
-    parameters.viscosity               = "2";
+    parameters.material.viscosity               = "2";
     return parameters;
   }
 

@@ -9,10 +9,14 @@
 
 namespace treacle
 {
-  /// Volume of the liquid outside solids over all ranks (m^dim).
+  /// Volume of { phi < 0 } outside solids over all ranks (m^dim); @p phi with
+  /// up-to-date ghosts.
   template <int dim>
   double
-  liquid_volume(const State<dim> &state, const Scene<dim> &scene);
+  liquid_volume(const Mesh<dim>  &mesh,
+                const Vector     &phi,
+                const Scene<dim> &scene,
+                const double      time);
 
   /// Where the liquid is, and how much of it a cell, face and node carries:
   /// computed once for each surface. Arrays run over owned entries and ghosts.
@@ -40,10 +44,10 @@ namespace treacle
     std::vector<double>         density;          ///< kg/m^dim
 
     // -- faces --
-    std::vector<double> open_fraction; ///< alpha: part of the area outside solids
+    std::vector<double> open_fraction; ///< alpha: part of the area outside solids and emitters
     std::vector<double> theta;         ///< liquid part of the dual edge
     std::vector<double> face_mass;     ///< M_f = rho alpha A theta L (kg); 0: no unknown
-    /// Normal velocity where there is no unknown: of walls and solids.
+    /// Normal velocity where there is no unknown: of walls, solids, emitters.
     std::vector<double> solid_velocity;
     unsigned int        n_clamped_faces = 0; ///< theta clamped, over all ranks
 
@@ -51,7 +55,9 @@ namespace treacle
     std::vector<unsigned char> is_active_node; ///< of an active cell
     std::vector<double>        node_mass;      ///< lumped liquid mass (kg), owned nodes
     std::vector<double>        solid_distance; ///< positive outside solids
-    /// Bit d is set where component d is prescribed (no slip, free slip, solids).
+    std::vector<unsigned char> is_emitter_node; ///< in an emitter at work
+    /// Bit d is set where component d is prescribed (no slip, free slip, solids,
+    /// emitters).
     std::vector<unsigned char>  constrained;
     std::vector<Tensor<1, dim>> prescribed; ///< the values
 
@@ -67,6 +73,9 @@ namespace treacle
 
   private:
     void
+    find_emitters(const double time);
+
+    void
     measure_cells(const State<dim> &state);
 
     void
@@ -74,6 +83,10 @@ namespace treacle
 
     void
     measure_nodes(const State<dim> &state);
+
+    /// Distance at nodes to what prescribes the velocity, solid or emitter, positive
+    /// outside.
+    std::vector<double> held_distance;
   };
 } // namespace treacle
 

@@ -4,46 +4,45 @@
 #ifndef treacle_fields_scene_h
 #define treacle_fields_scene_h
 
-#include <treacle/geometry/expression.h>
-#include <treacle/geometry/shapes.h>
-
-#include <deal.II/base/parameter_handler.h>
+#include <treacle/fields/emitter.h>
+#include <treacle/fields/solid.h>
 
 namespace treacle
 {
   /// What the parameter file says of the world: box, walls, liquids, solids,
-  /// material, gravity. Positions in m, time in s, no state of its own.
+  /// emitters, material, gravity. Positions in m, time in s, no state of its own.
   template <int dim>
   class Scene
   {
   public:
     struct Parameters
     {
-      using ShapeParameters = typename Shape<dim>::Parameters;
-
       struct Liquid
       {
-        ShapeParameters shape;
-        std::string     velocity = (dim == 2 ? "0; 0" : "0; 0; 0"); // m/s
+        typename Shape<dim>::Parameters    shape;
+        std::string                        velocity = (dim == 2 ? "0; 0" : "0; 0; 0"); // m/s
+        typename Material<dim>::Parameters material;
       };
 
       Point<dim>  lower_corner;
       Point<dim>  upper_corner   = diagonal_point<dim>(1);
       std::string wall_condition = "no slip";
-      std::string density        = "1000"; // kg/m^dim
-      std::string viscosity      = "150";  // Pa s
       std::string transport      = "fixed";
       std::string acceleration   = (dim == 2 ? "0; -9.81" : "0; 0; -9.81"); // m/s^2
 
-      std::vector<Liquid>          liquids;
-      std::vector<ShapeParameters> solids;
+      typename Material<dim>::Parameters material{"1000", "150"};
 
-      /// Declare the subsections, with Liquid 1 to n_liquids and Solid 1 to
-      /// n_solids; @p prm writes into this object when it parses.
+      std::vector<Liquid>                            liquids;
+      std::vector<typename Solid<dim>::Parameters>   solids;
+      std::vector<typename Emitter<dim>::Parameters> emitters;
+
+      /// Declare the subsections, with Liquid 1 to n_liquids and so on; @p prm
+      /// writes into this object when it parses.
       void
       add_parameters(ParameterHandler  &prm,
                      const unsigned int n_liquids,
-                     const unsigned int n_solids);
+                     const unsigned int n_solids,
+                     const unsigned int n_emitters = 0);
     };
 
     /// Throws a UserError that names the parameter at fault.
@@ -63,13 +62,18 @@ namespace treacle
     /// Signed distance to liquid k (from 0) at t = 0, negative inside.
     double liquid_distance(const unsigned int k, const Point<dim> &x) const;
 
-    /// Signed distance to the union of the liquids at t = 0, negative inside.
+    /// Signed distance to the liquid at t = 0, negative inside: the union of the
+    /// liquids and of the emitters that start then. A large number without any.
     double
     liquid_distance(const Point<dim> &x) const;
 
-    /// Velocity at t = 0: that of the liquid whose distance is smallest.
+    /// Velocity at t = 0: of the emitter around x, or of the nearest liquid.
     Tensor<1, dim>
     initial_velocity(const Point<dim> &x) const;
+
+    /// Material at t = 0: of the emitter around x, or of the nearest liquid.
+    const Material<dim> &
+    initial_material(const Point<dim> &x) const;
 
     bool
     has_solids() const;
@@ -79,8 +83,37 @@ namespace treacle
     double
     solid_distance(const Point<dim> &x, const double t) const;
 
+    /// Of the nearest solid (m/s).
     Tensor<1, dim>
     solid_velocity(const Point<dim> &x, const double t) const;
+
+    /// Throws a UserError if a moving solid has left the box.
+    void
+    check_solids(const double t) const;
+
+    const std::vector<Emitter<dim>> &
+    emitters() const;
+
+    /// Signed distance to the union of the emitters at work from t on, negative
+    /// inside; a large number if there is none.
+    double
+    emitter_distance(const Point<dim> &x, const double t) const;
+
+    /// Of the nearest emitter at work from t on (m/s); zero if there is none.
+    Tensor<1, dim>
+    emitter_velocity(const Point<dim> &x, const double t) const;
+
+    /// Smallest distance to the boundary of an emitter that has not stopped at t.
+    double
+    distance_to_emitter_boundary(const Point<dim> &x, const double t) const;
+
+    /// The next time after t at which an emitter starts or stops (s).
+    double
+    next_switch(const double t) const;
+
+    /// Are density and viscosity carried along with the liquid?
+    bool
+    has_advected_material() const;
 
     double
     density(const Point<dim> &x, const double t) const; // kg/m^dim
@@ -90,13 +123,28 @@ namespace treacle
     gravity(const Point<dim> &x, const double t) const; // m/s^2
 
   private:
-    Point<dim>                         lower, upper;
-    std::array<bool, 2 * dim>          sticks; // per side of the box
-    std::vector<Shape<dim>>            liquids;
-    std::vector<VectorExpression<dim>> liquid_velocities;
-    std::vector<Shape<dim>>            solids;
-    Expression<dim>                    density_at, viscosity_at;
-    VectorExpression<dim>              gravity_at;
+    struct Liquid
+    {
+      Shape<dim>            shape;
+      VectorExpression<dim> velocity;
+      Material<dim>         material;
+    };
+
+    /// The emitter at work from t on with the smallest distance, or null, and that distance.
+    std::pair<const Emitter<dim> *, double>
+    nearest_emitter(const Point<dim> &x, const double t) const;
+
+    void
+    check_transport(const Parameters &parameters) const;
+
+    Point<dim>                lower, upper;
+    std::array<bool, 2 * dim> sticks; // per side of the box
+    Material<dim>             material;
+    bool                      advected_material;
+    VectorExpression<dim>     gravity_at;
+    std::vector<Liquid>       liquids;
+    std::vector<Solid<dim>>   solids;
+    std::vector<Emitter<dim>> emitter_list;
   };
 } // namespace treacle
 

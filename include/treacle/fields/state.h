@@ -7,9 +7,31 @@
 #include <treacle/mesh/mesh.h>
 
 #include <memory>
+#include <optional>
 
 namespace treacle
 {
+  /// Material that the liquid carries along, at nodes.
+  struct CarriedMaterial
+  {
+    Vector density;   ///< kg/m^dim
+    Vector viscosity; ///< Pa s
+
+    explicit CarriedMaterial(const std::shared_ptr<const Utilities::MPI::Partitioner> &nodes)
+      : density(nodes)
+      , viscosity(nodes)
+    {}
+
+    void
+    update_ghost_values() const
+    {
+      density.update_ghost_values();
+      viscosity.update_ghost_values();
+    }
+  };
+
+
+
   /// All that evolves. Every step leaves the ghosts of what it changed up to date.
   template <int dim>
   struct State
@@ -32,6 +54,8 @@ namespace treacle
     Vector            u;        ///< face velocity, along the face's normal (m/s)
     NodeVector<dim>   v;        ///< node velocity, for tracing and output (m/s)
     Vector            pressure; ///< at dual centres, of the last projection (Pa)
+
+    std::optional<CarriedMaterial> material; ///< if it is advected
   };
 } // namespace treacle
 

@@ -47,6 +47,17 @@ namespace treacle
 
 
 
+  /// Throw a UserError: parameter @p name is @p value at x and t, but must be @p allowed.
+  template <int dim>
+  [[noreturn]] void
+  value_error(const std::string &name,
+              const double       value,
+              const std::string &allowed,
+              const Point<dim>  &x,
+              const double       t);
+
+
+
   /// One formula in x,y,z,t per component, separated by semicolons.
   template <int dim>
   class VectorExpression

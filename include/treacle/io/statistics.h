@@ -15,6 +15,7 @@ namespace treacle
     unsigned int viscosity_iterations = 0;
     unsigned int pressure_iterations  = 0;
     bool         rebuilt              = false; ///< the mesh is new
+    double       emitted              = 0;     ///< volume from emitters (m^dim)
     double       maximum_divergence   = 0;     ///< 1/s
     double       wall_time            = 0;     ///< s
   };
@@ -61,6 +62,7 @@ namespace treacle
     bool               has_file     = false;
     bool               has_first    = false;
     double             first_volume = 0; ///< of the first row (m^dim)
+    double             emitted      = 0; ///< since the start (m^dim)
     unsigned int       n_rebuilds   = 0;
     std::vector<Entry> row;
   };

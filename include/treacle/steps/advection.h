@@ -15,7 +15,8 @@ namespace treacle
   public:
     Advection(const State<dim> &old, const LiquidDomain<dim> &domain);
 
-    /// The state at old.time + dt: phi, and u within @p reach (m) of the liquid.
+    /// The state at old.time + dt: phi, carried material, and u within @p reach (m)
+    /// of the liquid.
     State<dim>
     advance(std::shared_ptr<const Mesh<dim>> mesh, const double dt, const double reach) const;
 

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_geometry_motion_h
+#define treacle_geometry_motion_h
+
+#include <treacle/geometry/expression.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+namespace treacle
+{
+  /// Where a rigid body is at one time, and how it moves.
+  template <int dim>
+  struct Pose
+  {
+    Point<dim>     start;    ///< the centre of rotation at t = 0 (m)
+    Tensor<1, dim> shift;    ///< of that centre since then (m)
+    Tensor<2, dim> rotation; ///< since t = 0
+    Tensor<1, dim> velocity; ///< of the centre (m/s)
+    Tensor<2, dim> spin;     ///< antisymmetric: spin * r is angular velocity x r (1/s)
+
+    /// Where the material point that is at @p x now was at t = 0.
+    Point<dim>
+    at_start(const Point<dim> &x) const
+    {
+      return start + transpose(rotation) * (x - shift - start);
+    }
+
+    /// Where the material point is now that was at @p x at t = 0.
+    Point<dim>
+    now(const Point<dim> &x) const
+    {
+      return start + shift + rotation * (x - start);
+    }
+
+    Tensor<1, dim>
+    velocity_at(const Point<dim> &x) const
+    {
+      return velocity + spin * (x - shift - start);
+    }
+  };
+
+
+
+  /// The motion of a solid: its position and rotation as formulas, or its velocities,
+  /// which are integrated from t = 0. A function of time alone, so that a
+  /// resumed run finds the solid at the same place.
+  template <int dim>
+  class RigidMotion
+  {
+  public:
+    struct Parameters
+    {
+      static constexpr const char *no_vector = dim == 2 ? "0; 0" : "0; 0; 0";
+      static constexpr const char *no_spin   = dim == 2 ? "0" : "0; 0; 0";
+
+      Point<dim>  centre;
+      std::string displacement     = no_vector; // m
+      std::string rotation         = no_spin;   // rad
+      std::string velocity         = no_vector; // m/s
+      std::string angular_velocity = no_spin;   // rad/s
+
+      /// Declare in the current subsection.
+      void
+      add_parameters(ParameterHandler &prm);
+    };
+
+    /// @p where names the subsection in messages. Throws a UserError where a
+    /// formula cannot be understood, or both kinds of motion are given.
+    RigidMotion(const Parameters &parameters, const std::string &where);
+
+    bool
+    is_moving() const
+    {
+      return kind != Kind::at_rest;
+    }
+
+    /// Throws a UserError where a formula is not finite.
+    const Pose<dim> &
+    at(const double t) const;
+
+  private:
+    enum class Kind
+    {
+      at_rest,
+      position,
+      velocity
+    };
+
+    static constexpr unsigned int n_rotations = dim == 2 ? 1 : 3;
+
+    /// The value of formulas at t. Throws a UserError where it is not finite.
+    Tensor<1, dim>
+    translation(const double t) const;
+
+    Tensor<1, n_rotations>
+    turn(const double t) const;
+
+    Pose<dim>
+    from_position(const double t) const;
+
+    Pose<dim>
+    from_velocity(const double t) const;
+
+    Kind                         kind = Kind::at_rest;
+    std::string                  where;
+    Point<dim>                   centre;
+    std::vector<Expression<dim>> translations, turns;
+    mutable Pose<dim>            last; ///< at time last_time
+    mutable double               last_time;
+  };
+} // namespace treacle
+
+#endif

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exchange.h>
+#include <treacle/steps/emission.h>
+
+namespace treacle
+{
+  namespace
+  {
+    /// How far a point is beyond the box or in a solid (m), negative in the open.
+    template <int dim>
+    double
+    depth_beyond(const Point<dim> &x, const Scene<dim> &scene, const double time)
+    {
+      double depth = -scene.solid_distance(x, time);
+      for (unsigned int d = 0; d < dim; ++d)
+        depth = std::max({depth, scene.lower_corner()[d] - x[d], x[d] - scene.upper_corner()[d]});
+      return depth;
+    }
+
+    template <int dim>
+    void
+    set_material(State<dim> &state, const Scene<dim> &scene, const double time)
+    {
+      const Mesh<dim> &mesh = *state.mesh;
+      std::string      error;
+      for (const Emitter<dim> &emitter : scene.emitters())
+        if (emitter.is_at_work(time))
+          for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+            if (const Point<dim> &x = mesh.node_position[node]; emitter.signed_distance(x) <= 0)
+              keep_error(error, [&] {
+                state.material->density.local_element(node)   = emitter.material.density(x, time);
+                state.material->viscosity.local_element(node) = emitter.material.viscosity(x, time);
+              });
+      throw_first(mesh.communicator(), error);
+      state.material->update_ghost_values();
+    }
+  } // namespace
+
+  template <int dim>
+  double
+  emit(State<dim> &state, const Scene<dim> &scene, const double dt)
+  {
+    // steps end where emitters start and stop
+    const double time = state.time - 0.5 * dt;
+    if (std::none_of(scene.emitters().begin(), scene.emitters().end(), [&](const auto &emitter) {
+          return emitter.is_at_work(time);
+        }))
+      return 0;
+
+    // paths that lead back through a wall bring no liquid: there the emitter fills
+    // the gap that its liquid leaves, as it does in the air
+    const Mesh<dim> &mesh   = *state.mesh;
+    Vector           before = state.phi;
+    before.zero_out_ghost_values();
+    state.phi.zero_out_ghost_values();
+    std::string error;
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      {
+        const Point<dim> &x        = mesh.node_position[node];
+        const double      distance = scene.emitter_distance(x, time);
+        if (distance <= 0)
+          keep_error(error, [&] {
+            const Point<dim> from = x - dt * scene.emitter_velocity(x, time);
+            before.local_element(node) =
+              std::max(before.local_element(node), depth_beyond(from, scene, time));
+          });
+        state.phi.local_element(node) = std::min(state.phi.local_element(node), distance);
+      }
+    throw_first(mesh.communicator(), error);
+    before.update_ghost_values();
+    state.phi.update_ghost_values();
+    if (state.material)
+      set_material(state, scene, time);
+    return liquid_volume(mesh, state.phi, scene, state.time) -
+           liquid_volume(mesh, before, scene, state.time);
+  }
+
+  template double
+  emit(State<2> &, const Scene<2> &, const double);
+  template double
+  emit(State<3> &, const Scene<3> &, const double);
+} // namespace treacle
