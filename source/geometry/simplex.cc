@@ -234,6 +234,38 @@ namespace treacle
 
 
   template <int dim>
+  Point<dim>
+  negative_centroid(const std::array<Point<dim>, dim> &x, const VertexValues<dim - 1> &phi)
+  {
+    Point<dim>   whole;
+    unsigned int n_negative = 0;
+    for (unsigned int i = 0; i < dim; ++i)
+      {
+        whole += x[i] / dim;
+        n_negative += phi[i] < 0;
+      }
+    if (n_negative == 0 || n_negative == dim)
+      return whole;
+
+    // the corner at the vertex that is alone with its sign, or what it leaves over
+    unsigned int alone = 0;
+    while ((phi[alone] < 0) != (n_negative == 1))
+      ++alone;
+    Point<dim> corner;
+    for (unsigned int i = 0; i < dim; ++i)
+      {
+        const double t = i == alone ? 0. : phi[alone] / (phi[alone] - phi[i]);
+        corner += (x[alone] + t * (x[i] - x[alone])) / dim;
+      }
+    if (n_negative == 1)
+      return corner;
+    const double part = negative_fraction<dim - 1>(phi);
+    return whole + (1 - part) / part * (whole - corner);
+  }
+
+
+
+  template <int dim>
   Moments<dim>
   liquid_moments(const Simplex<dim>      &x,
                  const VertexValues<dim> &phi,
@@ -297,7 +329,9 @@ namespace treacle
   template Moments<dim>      liquid_moments<dim>(const Simplex<dim> &,                   \
                                             const VertexValues<dim> &,              \
                                             const VertexValues<dim> &);             \
-  template Tensor<1, dim>    area_vector<dim>(const std::array<Point<dim>, dim> &);
+  template Tensor<1, dim>    area_vector<dim>(const std::array<Point<dim>, dim> &);    \
+  template Point<dim>        negative_centroid<dim>(const std::array<Point<dim>, dim> &, \
+                                             const VertexValues<dim - 1> &);
 
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -49,9 +49,10 @@ namespace treacle
         }))
       return 0;
 
-    // paths that lead back through a wall bring no liquid: there the emitter fills
-    // the gap that its liquid leaves, as it does in the air
+    // what was liquid before, in an emitter and beside it: what came from inside the
+    // emitter, and what was there already. Paths that lead back through a wall bring none
     const Mesh<dim> &mesh   = *state.mesh;
+    const double     margin = 2 * mesh.finest_size();
     Vector           before = state.phi;
     before.zero_out_ghost_values();
     state.phi.zero_out_ghost_values();
@@ -60,13 +61,17 @@ namespace treacle
       {
         const Point<dim> &x        = mesh.node_position[node];
         const double      distance = scene.emitter_distance(x, time);
-        if (distance <= 0)
+        double           &phi      = state.phi.local_element(node);
+        const double      advected = phi;
+        phi                        = std::min(advected, distance);
+        before.local_element(node) = phi;
+        if (distance < margin)
           keep_error(error, [&] {
             const Point<dim> from = x - dt * scene.emitter_velocity(x, time);
             before.local_element(node) =
-              std::max(before.local_element(node), depth_beyond(from, scene, time));
+              std::max(std::min(advected, scene.emitter_distance(from, time)),
+                       depth_beyond(from, scene, time));
           });
-        state.phi.local_element(node) = std::min(state.phi.local_element(node), distance);
       }
     throw_first(mesh.communicator(), error);
     before.update_ghost_values();

@@ -38,11 +38,14 @@ namespace tests
 
   template <int dim>
   typename Simulator<dim>::Parameters
-  parse(const std::string &text, const unsigned int n_solids)
+  parse(const std::string &text,
+        const unsigned int n_solids,
+        const unsigned int n_liquids  = 1,
+        const unsigned int n_emitters = 0)
   {
     ParameterHandler                    prm;
     typename Simulator<dim>::Parameters parameters;
-    parameters.add_parameters(prm, 1, n_solids);
+    parameters.add_parameters(prm, n_liquids, n_solids, n_emitters);
     prm.parse_input_from_string(text);
     return parameters;
   }
@@ -50,9 +53,14 @@ namespace tests
   /// Run the scene of a parameter text and return its statistics. Collective.
   template <int dim>
   std::vector<Row>
-  run_scene(const MPI_Comm &comm, const std::string &text, const unsigned int n_solids = 0)
+  run_scene(const MPI_Comm    &comm,
+            const std::string &text,
+            const unsigned int n_solids   = 0,
+            const unsigned int n_liquids  = 1,
+            const unsigned int n_emitters = 0)
   {
-    typename Simulator<dim>::Parameters parameters = parse<dim>(text, n_solids);
+    typename Simulator<dim>::Parameters parameters =
+      parse<dim>(text, n_solids, n_liquids, n_emitters);
     parameters.output_directory =
       "run_" + std::to_string(dim) + "d_" + std::to_string(Utilities::MPI::n_mpi_processes(comm));
     parameters.mesh_writer.format    = "none";

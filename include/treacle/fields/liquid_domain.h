@@ -78,6 +78,10 @@ namespace treacle
     void
     measure_cells(const State<dim> &state);
 
+    /// Open fraction and solid velocity of a face.
+    void
+    measure_openings(const LocalIndex face, const double time);
+
     void
     measure_faces(const State<dim> &state);
 

@@ -43,6 +43,12 @@ namespace treacle
   double
   negative_fraction(const VertexValues<dim> &phi);
 
+  /// Centroid of the part of a facet on which the P1 function with vertex values
+  /// @p phi is negative; of the whole facet if that is none. Exact.
+  template <int dim>
+  Point<dim>
+  negative_centroid(const std::array<Point<dim>, dim> &x, const VertexValues<dim - 1> &phi);
+
   /// Volume (m^dim) and first moment (integral of x, m^(dim+1)) of a set.
   template <int dim>
   struct Moments
