@@ -294,7 +294,7 @@ namespace treacle
   Simulator<dim>::output_frame()
   {
     const auto section = timing.section("output");
-    surface_writer.write(*state, prm.output_directory, frame);
+    surface_writer.write(*state, *domain, prm.output_directory, frame);
     mesh_writer.write(*state, *domain, prm.output_directory, frame);
     if (checkpoint.is_due(frame))
       checkpoint.write(*state, {frame, {{"volume", volume}}});
