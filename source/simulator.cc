@@ -4,7 +4,6 @@
 #include <treacle/base/exchange.h>
 #include <treacle/base/files.h>
 #include <treacle/simulator.h>
-#include <treacle/steps/advection.h>
 #include <treacle/steps/redistance.h>
 #include <treacle/steps/remesh.h>
 
@@ -27,6 +26,7 @@ namespace treacle
     scene.add_parameters(handler, n_liquids, n_solids);
     mesh.add_parameters(handler);
     tracking.add_parameters(handler);
+    advection.add_parameters(handler);
     reconstruction.add_parameters(handler);
     face_fit.add_parameters(handler);
     viscosity.add_parameters(handler);
@@ -202,7 +202,7 @@ namespace treacle
   void
   Simulator<dim>::move_surface(const double dt)
   {
-    const Advection<dim> advection(*state, *domain);
+    const Advection<dim> advection(prm.advection, *state, *domain);
     const auto           mesh = [&] {
       const auto section = timing.section("mesh");
       return mesh_for_next_surface(*state, advection, dt);

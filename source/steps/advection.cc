@@ -4,6 +4,7 @@
 #include <treacle/fields/mapping.h>
 #include <treacle/mesh/tracer.h>
 #include <treacle/steps/advection.h>
+#include <treacle/steps/back_and_forth.h>
 #include <treacle/steps/redistance.h>
 
 namespace treacle
@@ -47,8 +48,24 @@ namespace treacle
   } // namespace
 
   template <int dim>
-  Advection<dim>::Advection(const State<dim> &old, const LiquidDomain<dim> &domain)
-    : old(old)
+  void
+  Advection<dim>::Parameters::add_parameters(ParameterHandler &handler)
+  {
+    handler.enter_subsection("Advection");
+    handler.add_parameter("Scheme",
+                          scheme,
+                          "How velocity is carried along: MacCormack's correction keeps more of "
+                          "what is small, at about twice the work.",
+                          Patterns::Selection("semi-Lagrangian|MacCormack"));
+    handler.leave_subsection();
+  }
+
+  template <int dim>
+  Advection<dim>::Advection(const Parameters        &parameters,
+                            const State<dim>        &old,
+                            const LiquidDomain<dim> &domain)
+    : prm(parameters)
+    , old(old)
     , surface_velocity(slipping_velocity(old, domain))
     , phi_gradient(nodal_gradient(*old.mesh, old.phi))
     , phi_smoothness(old.mesh->nodes)
@@ -72,6 +89,27 @@ namespace treacle
   {
     const Tracer<dim> tracer(*old.mesh);
     return tracer.evaluate(tracer.trace(x, surface_velocity, -dt), {{&old.phi, &phi_gradient, &phi_smoothness}});
+  }
+
+  template <int dim>
+  std::vector<Vector>
+  Advection<dim>::velocity_correction(const double dt, const double reach) const
+  {
+    if (prm.scheme == "semi-Lagrangian")
+      return {};
+    std::vector<LocalIndex> known, corrected;
+    for (LocalIndex node = 0; node < old.mesh->n_owned_nodes(); ++node)
+      {
+        const double phi = old.phi.local_element(node);
+        if (phi < reach)
+          known.push_back(node);
+        if (phi < 0) // the velocity in the air is not smooth
+          corrected.push_back(node);
+      }
+    std::vector<const Vector *> components;
+    for (const Vector &component : old.v.component)
+      components.push_back(&component);
+    return back_and_forth_error(*old.mesh, components, old.v, dt, known, corrected);
   }
 
   template <int dim>
@@ -104,9 +142,13 @@ namespace treacle
           x.push_back(mesh->face_centre[f]);
         }
     const Tracer<dim>           tracer(*old.mesh);
+    const std::vector<Vector>   correction = velocity_correction(dt, reach);
     std::vector<NodeField<dim>> fields;
-    for (const Vector &component : old.v.component)
-      fields.push_back({&component});
+    for (unsigned int d = 0; d < dim; ++d)
+      fields.push_back({&old.v.component[d],
+                        nullptr,
+                        nullptr,
+                        correction.empty() ? nullptr : &correction[d]});
     const std::vector<double> v = tracer.evaluate(tracer.trace(x, old.v, -dt), fields);
     for (unsigned int i = 0; i < faces.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)

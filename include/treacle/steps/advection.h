@@ -6,14 +6,29 @@
 
 #include <treacle/fields/liquid_domain.h>
 
+#include <deal.II/base/parameter_handler.h>
+
 namespace treacle
 {
-  /// Semi-Lagrangian advection from the old state into a new or the same mesh.
+  /// Semi-Lagrangian advection from the old state into a new or the same mesh, of the
+  /// velocity also after MacCormack (Selle et al. 2008): what is lost on the way back and
+  /// forth is added to it, within the bounds of the cell that it is read from.
   template <int dim>
   class Advection
   {
   public:
-    Advection(const State<dim> &old, const LiquidDomain<dim> &domain);
+    struct Parameters
+    {
+      std::string scheme = "semi-Lagrangian";
+
+      /// Subsection Advection.
+      void
+      add_parameters(ParameterHandler &prm);
+    };
+
+    Advection(const Parameters        &parameters,
+              const State<dim>        &old,
+              const LiquidDomain<dim> &domain);
 
     /// The state at old.time + dt: phi, and u within @p reach (m) of the liquid.
     State<dim>
@@ -28,6 +43,11 @@ namespace treacle
     level_set(const std::vector<Point<dim>> &x, const double dt) const;
 
   private:
+    /// Of the velocity, one component after another; empty without MacCormack.
+    std::vector<Vector>
+    velocity_correction(const double dt, const double reach) const;
+
+    const Parameters  prm;
     const State<dim> &old;
     /// What moves the surface: the node velocity, but at walls and in solids that
     /// of the nodes beside them. With the wall's own velocity a film of air
