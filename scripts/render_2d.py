@@ -27,8 +27,14 @@ def filled(loops, **style):
 def draw_box(axes, run):
     axes.add_patch(Rectangle(run.lower, *(run.upper - run.lower), fill=False,
                              edgecolor=FRAME, linewidth=1.5, zorder=5))
-    for shape, a, b, inside_out in run.solids():
-        patch = Circle(a, b[0]) if shape == "sphere" else Rectangle(a, *(b - a))
+    for shape, value, inside_out in run.bodies():
+        if shape == "sphere":
+            patch = Circle(value("Centre"), value("Radius")[0])
+        elif shape == "box":
+            a, b = value("Lower corner"), value("Upper corner")
+            patch = Rectangle(a, *(b - a))
+        else:
+            continue
         patch.set(facecolor="none" if inside_out else SOLID, edgecolor=FRAME, zorder=4)
         axes.add_patch(patch)
     margin = 0.02 * (run.upper - run.lower).max()

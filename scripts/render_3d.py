@@ -4,6 +4,7 @@
 
 import numpy
 import vtk
+from scipy.sparse import coo_matrix, identity
 from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
 from outline import liquid_loops, merge
@@ -56,7 +57,8 @@ class Pictures3D:
     def _liquid(self, surface):
         lower, upper = self.run.lower, self.run.upper
         facets, _ = merge(surface.points, surface.facets, 1e-7 * (upper - lower).max())
-        parts = [with_normals(poly_data(surface.points, facets, speed=surface.speed))]
+        parts = [with_smooth_normals(poly_data(surface.points, facets, speed=surface.speed),
+                                     facets)]
         parts += [polygons(loops) for loops in wall_caps(surface.points, facets, lower, upper)]
         for part in parts:
             actor = self.studio.add(part)
@@ -109,22 +111,97 @@ class Pictures3D:
         self.actors.append(actor)
 
     def _solids(self):
-        for shape, a, b, inside_out in self.run.solids():
-            if shape == "sphere":
-                source = vtk.vtkSphereSource()
-                source.SetCenter(*a)
-                source.SetRadius(b[0])
-                source.SetThetaResolution(96)
-                source.SetPhiResolution(96)
-            else:
-                source = vtk.vtkCubeSource()
-                source.SetBounds(*numpy.stack([a, b], axis=1).ravel())
-            material = self.studio.add(source).GetProperty()
-            material.SetColor(*SOLID)
-            material.SetInterpolationToPBR()
-            material.SetRoughness(0.6)
-            if inside_out:
-                material.SetOpacity(0.12)
+        for kind in "Solid", "Emitter":
+            for shape, value, inside_out in self.run.bodies(kind):
+                source = body(shape, value, self.run)
+                if source is None:
+                    continue
+                material = self.studio.add(source).GetProperty()
+                material.SetColor(*SOLID)
+                material.SetInterpolationToPBR()
+                material.SetRoughness(0.6)
+                if inside_out:
+                    material.SetOpacity(0.12)
+
+
+def body(shape, value, run):
+    """What draws a body, within the box, or None where nothing here can."""
+    if shape == "sphere":
+        source = vtk.vtkSphereSource()
+        source.SetCenter(*value("Centre"))
+        source.SetRadius(value("Radius")[0])
+        source.SetThetaResolution(96)
+        source.SetPhiResolution(96)
+        return source
+    if shape in ("cylinder", "capsule"):
+        if shape == "capsule":
+            start, end = value("Start"), value("End")
+        else:
+            axis = value("Axis") / numpy.linalg.norm(value("Axis"))
+            start, end = (value("Centre") + s * value("Length")[0] * axis for s in (-0.5, 0.5))
+        line, tube = vtk.vtkLineSource(), vtk.vtkTubeFilter()
+        line.SetPoint1(*start)
+        line.SetPoint2(*end)
+        tube.SetInputConnection(line.GetOutputPort())
+        tube.SetRadius(value("Radius")[0])
+        tube.SetNumberOfSides(96)
+        tube.CappingOn()
+        return tube
+    if shape not in ("box", "half space"):
+        return None
+    lower, upper = run.lower, run.upper
+    if shape == "box":
+        lower, upper = value("Lower corner"), value("Upper corner")
+    box = vtk.vtkCubeSource()
+    box.SetBounds(*numpy.stack([lower, upper], axis=1).ravel())
+    if shape == "box":
+        return box
+    plane, planes, part = vtk.vtkPlane(), vtk.vtkPlaneCollection(), vtk.vtkClipClosedSurface()
+    plane.SetOrigin(*value("Centre"))
+    plane.SetNormal(*-value("Normal"))
+    planes.AddItem(plane)
+    part.SetInputConnection(box.GetOutputPort())
+    part.SetClippingPlanes(planes)
+    return part
+
+
+class Cutaway(Pictures3D):
+    """All cells of the liquid, as honey, and of the air, pale, those behind a plane through
+    the middle of the box."""
+
+    LIQUID, AIR = (0.98, 0.62, 0.12), (0.86, 0.90, 0.94)
+
+    def __init__(self, run, frames, options):
+        super().__init__(run, frames, options)
+        self.studio.light(0.6, (0.3, 0.2, 1))
+
+    def draw(self, frame, path):
+        from mesh_reader import read_mesh
+        points, cells, phi = read_mesh(self.run.mesh(frame))
+        axis = int(numpy.argmax(abs(self.studio.toward_camera[:2])))
+        side = numpy.sign(self.studio.toward_camera[axis])
+        middle = 0.5 * (self.run.lower + self.run.upper)[axis]
+        centre = points[cells].mean(axis=1)
+        behind = (centre[:, axis] - middle) * side < 0
+        is_liquid = phi[cells].mean(axis=1) < 0
+        self._cells(points, cells[is_liquid], self.LIQUID, (0.36, 0.17, 0.0))
+        self._cells(points, cells[behind & ~is_liquid], self.AIR, (0.42, 0.49, 0.56))
+        self.studio.paint_floor(points[:0], numpy.zeros((0, 3), int))
+        self.studio.title.SetInput("")
+        self.studio.save(path)
+
+    def _cells(self, points, cells, colour, edge_colour):
+        faces, _ = boundary_faces(points, cells)
+        corners = points[faces].reshape(-1, 3)
+        actor = self.studio.add(poly_data(corners, numpy.arange(len(corners)).reshape(-1, 3)))
+        material = actor.GetProperty()
+        material.SetColor(*colour)
+        material.SetInterpolationToFlat()
+        material.SetAmbient(0.40)
+        material.SetDiffuse(0.62)
+        material.EdgeVisibilityOn()
+        material.SetEdgeColor(*edge_colour)
+        material.SetLineWidth(0.5 * SAMPLES)
 
 
 def wall_caps(points, facets, lower, upper):
@@ -192,6 +269,24 @@ def polygons(loops):
     triangles.SetInputData(data)
     triangles.Update()
     return with_normals(triangles.GetOutput())
+
+
+def with_smooth_normals(data, facets):
+    """Normals averaged over neighbours three times: facets of cut tetrahedra differ much
+    in shape, and their own normals show it."""
+    data = with_normals(data)
+    normals = vtk_to_numpy(data.GetPointData().GetNormals()).astype(float)
+    edges = numpy.concatenate([facets[:, [0, 1]], facets[:, [1, 2]], facets[:, [2, 0]]])
+    n = len(normals)
+    near = coo_matrix((numpy.ones(len(edges)), edges.T), shape=(n, n)).tocsr()
+    near = near + near.T + identity(n)
+    for _ in range(3):
+        normals = near @ normals
+        normals /= numpy.maximum(numpy.linalg.norm(normals, axis=1), 1e-12)[:, None]
+    array = numpy_to_vtk(normals.astype(numpy.float32), deep=True)
+    array.SetName("Normals")
+    data.GetPointData().SetNormals(array)
+    return data
 
 
 def with_normals(data):

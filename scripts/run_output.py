@@ -72,18 +72,16 @@ class Run:
         raise DataError(f"there is no mesh {path.with_suffix('.pvtu')}: "
                         "it needs 'Mesh format = vtu'")
 
-    def solids(self):
-        """The solids that can be drawn: (shape, lower or centre, upper or radius, inside out)."""
+    def bodies(self, kind="Solid"):
+        """The bodies `kind 1`, ... as (shape, function from a parameter's name to its
+        numbers, inside out)."""
         for k in range(1, 100):
-            block = {name.split("/", 1)[1]: name for name in self.parameters
-                     if name.startswith(f"Solid {k}/")}
-            if not block:
+            block = f"{kind} {k}/"
+            if not any(name.startswith(block) for name in self.parameters):
                 return
-            shape = self.parameters.get(f"Solid {k}/Shape")
-            names = {"sphere": ("Centre", "Radius"), "box": ("Lower corner", "Upper corner")}
-            if shape in names and all(name in block for name in names[shape]):
-                a, b = (self.numbers(block[name]) for name in names[shape])
-                yield shape, a, b, self.parameters.get(f"Solid {k}/Invert") == "true"
+            yield (self.parameters.get(block + "Shape", "sphere"),
+                   lambda name, block=block: self.numbers(block + name),
+                   self.parameters.get(block + "Invert") == "true")
 
     def _read_times(self):
         path = self.directory / "frames" / "mesh.pvd"

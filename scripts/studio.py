@@ -175,7 +175,8 @@ class Studio:
     def _outline(self):
         outline = vtk.vtkOutlineSource()
         outline.SetBounds(*numpy.stack([self.lower, self.upper], axis=1).ravel())
-        material = self.add(outline).GetProperty()
+        self.outline = self.add(outline)
+        material = self.outline.GetProperty()
         material.SetColor(*SOLID)
         material.LightingOff()
         material.SetLineWidth(1.2 * SAMPLES)

@@ -4,7 +4,6 @@
 #include <treacle/base/exchange.h>
 #include <treacle/base/files.h>
 #include <treacle/simulator.h>
-#include <treacle/steps/advection.h>
 #include <treacle/steps/emission.h>
 #include <treacle/steps/material_extension.h>
 #include <treacle/steps/redistance.h>
@@ -30,6 +29,7 @@ namespace treacle
     scene.add_parameters(handler, n_liquids, n_solids, n_emitters);
     mesh.add_parameters(handler);
     tracking.add_parameters(handler);
+    advection.add_parameters(handler);
     reconstruction.add_parameters(handler);
     face_fit.add_parameters(handler);
     viscosity.add_parameters(handler);
@@ -215,7 +215,7 @@ namespace treacle
   void
   Simulator<dim>::move_surface(const double dt)
   {
-    const Advection<dim> advection(*state, *domain);
+    const Advection<dim> advection(prm.advection, *state, *domain);
     const auto           mesh = [&] {
       const auto section = timing.section("mesh");
       return mesh_for_next_surface(*state, scene, advection, dt);
@@ -311,7 +311,7 @@ namespace treacle
   Simulator<dim>::output_frame()
   {
     const auto section = timing.section("output");
-    surface_writer.write(*state, prm.output_directory, frame);
+    surface_writer.write(*state, *domain, prm.output_directory, frame);
     mesh_writer.write(*state, *domain, prm.output_directory, frame);
     if (checkpoint.is_due(frame))
       checkpoint.write(*state, {frame, {{"volume", volume}}});

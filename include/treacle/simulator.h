@@ -10,6 +10,7 @@
 #include <treacle/io/mesh_writer.h>
 #include <treacle/io/statistics.h>
 #include <treacle/io/surface_writer.h>
+#include <treacle/steps/advection.h>
 #include <treacle/steps/forces.h>
 #include <treacle/steps/projection.h>
 #include <treacle/steps/reconstruction.h>
@@ -33,6 +34,7 @@ namespace treacle
       typename Scene<dim>::Parameters           scene;
       typename Octree<dim>::Parameters          mesh;
       typename SurfaceTracking<dim>::Parameters tracking;
+      typename Advection<dim>::Parameters       advection;
       typename Reconstruction<dim>::Parameters  reconstruction;
       typename FaceFit<dim>::Parameters         face_fit;
       typename Viscosity<dim>::Parameters       viscosity;

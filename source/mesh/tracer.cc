@@ -20,6 +20,14 @@ namespace treacle
         result[k]                 = 0;
         for (unsigned int i = 0; i <= dim; ++i)
           result[k] += location.lambda[i] * f[i];
+        if (fields[k].correction != nullptr)
+          {
+            const VertexValues<dim> e = mesh.values(location.cell, *fields[k].correction);
+            const auto [low, high]    = std::minmax_element(f.begin(), f.end());
+            for (unsigned int i = 0; i <= dim; ++i)
+              result[k] += location.lambda[i] * e[i];
+            result[k] = std::clamp(result[k], *low, *high);
+          }
         if (fields[k].gradient == nullptr)
           continue;
         double correction = 0, smoothness = 0;

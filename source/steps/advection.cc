@@ -4,6 +4,7 @@
 #include <treacle/fields/mapping.h>
 #include <treacle/mesh/tracer.h>
 #include <treacle/steps/advection.h>
+#include <treacle/steps/back_and_forth.h>
 #include <treacle/steps/redistance.h>
 
 namespace treacle
@@ -48,8 +49,24 @@ namespace treacle
   } // namespace
 
   template <int dim>
-  Advection<dim>::Advection(const State<dim> &old, const LiquidDomain<dim> &domain)
-    : old(old)
+  void
+  Advection<dim>::Parameters::add_parameters(ParameterHandler &handler)
+  {
+    handler.enter_subsection("Advection");
+    handler.add_parameter("Scheme",
+                          scheme,
+                          "How velocity and material are carried along: MacCormack's correction keeps more of "
+                          "what is small, at about twice the work.",
+                          Patterns::Selection("semi-Lagrangian|MacCormack"));
+    handler.leave_subsection();
+  }
+
+  template <int dim>
+  Advection<dim>::Advection(const Parameters        &parameters,
+                            const State<dim>        &old,
+                            const LiquidDomain<dim> &domain)
+    : prm(parameters)
+    , old(old)
     , surface_velocity(slipping_velocity(old, domain))
     , phi_gradient(nodal_gradient(*old.mesh, old.phi))
     , phi_smoothness(old.mesh->nodes)
@@ -76,6 +93,36 @@ namespace treacle
   }
 
   template <int dim>
+  std::vector<double>
+  Advection<dim>::carried(const std::vector<const Vector *> &fields,
+                          const NodeVector<dim>             &velocity,
+                          const std::vector<Point<dim>>     &from,
+                          const double                       dt,
+                          const double                       reach) const
+  {
+    std::vector<NodeField<dim>> node_fields;
+    for (const Vector *field : fields)
+      node_fields.push_back({field});
+    std::vector<Vector> correction;
+    if (prm.scheme == "MacCormack")
+      {
+        std::vector<LocalIndex> known, corrected;
+        for (LocalIndex node = 0; node < old.mesh->n_owned_nodes(); ++node)
+          {
+            const double phi = old.phi.local_element(node);
+            if (phi < reach)
+              known.push_back(node);
+            if (phi < 0) // fields in the air are not smooth
+              corrected.push_back(node);
+          }
+        correction = back_and_forth_error(*old.mesh, fields, velocity, dt, known, corrected);
+        for (unsigned int k = 0; k < fields.size(); ++k)
+          node_fields[k].correction = &correction[k];
+      }
+    return Tracer<dim>(*old.mesh).evaluate(from, node_fields);
+  }
+
+  template <int dim>
   State<dim>
   Advection<dim>::advance(std::shared_ptr<const Mesh<dim>> mesh,
                           const double                     dt,
@@ -87,47 +134,61 @@ namespace treacle
     if (mesh == old.mesh)
       state.pressure = old.pressure;
     state.pressure.update_ghost_values();
+    advance_nodes(state, dt, reach);
+    advance_faces(state, dt, reach);
+    return state;
+  }
 
-    std::vector<Point<dim>> x(mesh->node_position.begin(),
-                              mesh->node_position.begin() + mesh->n_owned_nodes());
+  template <int dim>
+  void
+  Advection<dim>::advance_nodes(State<dim> &state, const double dt, const double reach) const
+  {
+    const Mesh<dim>              &mesh = *state.mesh;
+    const std::vector<Point<dim>> x(mesh.node_position.begin(),
+                                    mesh.node_position.begin() + mesh.n_owned_nodes());
     const Tracer<dim>             tracer(*old.mesh);
     const std::vector<Point<dim>> from = tracer.trace(x, surface_velocity, -dt);
     const std::vector<double>     phi =
       tracer.evaluate(from, {{&old.phi, &phi_gradient, &phi_smoothness}});
     std::copy(phi.begin(), phi.end(), state.phi.begin());
     state.phi.update_ghost_values();
-    if (old.material)
+    if (!old.material)
+      return;
+    const std::vector<double> material =
+      carried({&old.material->density, &old.material->viscosity}, surface_velocity, from, dt, reach);
+    state.material.emplace(mesh.nodes);
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
-        const std::vector<double> material =
-          tracer.evaluate(from, {{&old.material->density}, {&old.material->viscosity}});
-        state.material.emplace(mesh->nodes);
-        for (LocalIndex node = 0; node < mesh->n_owned_nodes(); ++node)
-          {
-            state.material->density.local_element(node)   = material[2 * node];
-            state.material->viscosity.local_element(node) = material[2 * node + 1];
-          }
-        state.material->update_ghost_values();
+        state.material->density.local_element(node)   = material[2 * node];
+        state.material->viscosity.local_element(node) = material[2 * node + 1];
       }
+    state.material->update_ghost_values();
+  }
 
+  template <int dim>
+  void
+  Advection<dim>::advance_faces(State<dim> &state, const double dt, const double reach) const
+  {
+    const Mesh<dim>        &mesh = *state.mesh;
     std::vector<LocalIndex> faces;
-    x.clear();
-    for (LocalIndex f = 0; f < mesh->n_owned_faces(); ++f)
-      if (std::any_of(mesh->face_nodes[f].begin(), mesh->face_nodes[f].end(), [&](const auto node) {
+    std::vector<Point<dim>> x;
+    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
+      if (std::any_of(mesh.face_nodes[f].begin(), mesh.face_nodes[f].end(), [&](const auto node) {
             return state.phi.local_element(node) < reach;
           }))
         {
           faces.push_back(f);
-          x.push_back(mesh->face_centre[f]);
+          x.push_back(mesh.face_centre[f]);
         }
-    std::vector<NodeField<dim>> fields;
+    std::vector<const Vector *> components;
     for (const Vector &component : old.v.component)
-      fields.push_back({&component});
-    const std::vector<double> v = tracer.evaluate(tracer.trace(x, old.v, -dt), fields);
+      components.push_back(&component);
+    const std::vector<double> v =
+      carried(components, old.v, Tracer<dim>(*old.mesh).trace(x, old.v, -dt), dt, reach);
     for (unsigned int i = 0; i < faces.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        state.u.local_element(faces[i]) += mesh->face_normal[faces[i]][d] * v[dim * i + d];
+        state.u.local_element(faces[i]) += mesh.face_normal[faces[i]][d] * v[dim * i + d];
     state.u.update_ghost_values();
-    return state;
   }
 
   template class Advection<2>;

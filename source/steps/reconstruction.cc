@@ -11,10 +11,6 @@ namespace treacle
   Reconstruction<dim>::Parameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Advection");
-    prm.add_parameter("Scheme",
-                      scheme,
-                      "How velocity and level set are carried along.",
-                      Patterns::Selection("semi-Lagrangian"));
     prm.add_parameter("Reconstruction",
                       method,
                       "Node velocity from face velocity: the fit that is exact for rigid motions, "

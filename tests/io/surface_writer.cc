@@ -3,6 +3,8 @@
 
 // The surface of a ball as PLY: closed, of the right area, with the velocity,
 // and the same bytes whatever the number of ranks. An empty surface is a file too.
+// Half spaces that are solid cut it off, on lattice planes and tilted: what remains
+// must be closed, and its area that of a part of the ball and of a disc.
 
 #include <treacle/io/surface_writer.h>
 
@@ -56,42 +58,130 @@ read_ply(const std::string &bytes)
 }
 
 template <int dim>
+std::array<Point<dim>, dim>
+points(const Ply &ply, const std::vector<std::int32_t> &facet)
+{
+  std::array<Point<dim>, dim> x;
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int d = 0; d < dim; ++d)
+      x[i][d] = ply.vertices[facet[i]][d];
+  return x;
+}
+
+/// Borders of facets that are not met by a neighbour of the same orientation.
+template <int dim>
+unsigned int
+n_open(const Ply &ply)
+{
+  std::map<std::vector<int>, int> borders; // +1 and -1 for its two directions
+  for (const auto &facet : ply.facets)
+    if (dim == 2)
+      for (int i = 0; i < 2; ++i)
+        borders[{facet[i]}] += 2 * i - 1;
+    else
+      for (int i = 0; i < 3; ++i)
+        {
+          const int from = facet[i], to = facet[(i + 1) % 3];
+          borders[{std::min(from, to), std::max(from, to)}] += from < to ? 1 : -1;
+        }
+  return std::count_if(borders.begin(), borders.end(), [](const auto &b) {
+    return b.second != 0;
+  });
+}
+
+template <int dim>
 void
 describe(const Ply &ply)
 {
-  double                          area = 0, worst = 0;
-  Tensor<1, dim>                  sum;
-  std::map<std::vector<int>, int> borders; // +1 and -1 for its two directions
+  double         area = 0, worst = 0;
+  Tensor<1, dim> sum;
   for (const auto &facet : ply.facets)
     {
-      std::array<Point<dim>, dim> x;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int d = 0; d < dim; ++d)
-          x[i][d] = ply.vertices[facet[i]][d];
+      const auto           x = points<dim>(ply, facet);
       const Tensor<1, dim> a = area_vector<dim>(x);
       area += (a * (x[0] - diagonal_point<dim>(0.5)) > -1e-12 ? 1 : -1) * a.norm();
       sum += a;
-      if (dim == 2)
-        for (int i = 0; i < 2; ++i)
-          borders[{facet[i]}] += 2 * i - 1;
-      else
-        for (int i = 0; i < 3; ++i)
-          {
-            const int from = facet[i], to = facet[(i + 1) % 3];
-            borders[{std::min(from, to), std::max(from, to)}] += from < to ? 1 : -1;
-          }
     }
   for (const auto &v : ply.vertices)
     worst = std::max({worst,
                       std::abs(v[3] - (-2 * (v[1] - 0.5) + 0.25)),
                       std::abs(v[4] - 2 * (v[0] - 0.5))});
-  const auto n_open = std::count_if(borders.begin(), borders.end(), [](const auto &b) {
-    return b.second != 0;
-  });
   tests::out() << dim << "D: " << ply.vertices.size() << " vertices, "
-               << ply.facets.size() << " facets, " << n_open << " open, area " << area
-               << ", sum " << (sum.norm() < 1e-5 ? "0" : "not 0") << ", velocity "
+               << ply.facets.size() << " facets, " << n_open<dim>(ply) << " open, area "
+               << area << ", sum " << (sum.norm() < 1e-5 ? "0" : "not 0") << ", velocity "
                << (worst < 1e-6 ? "ok" : "WRONG") << std::endl;
+}
+
+/// The part of the ball above a plane through @p p with the normal @p n, and the disc on
+/// the plane.
+template <int dim>
+void
+describe_cut(const Ply &ply, const Point<dim> &p, const Tensor<1, dim> &n)
+{
+  double lowest = 1, smallest = 1, ball = 0, disc = 0;
+  bool   outward = true;
+  for (const auto &facet : ply.facets)
+    {
+      const auto           x = points<dim>(ply, facet);
+      const Tensor<1, dim> a = area_vector<dim>(x);
+      double               highest = -1;
+      for (const auto &vertex : x)
+        {
+          lowest  = std::min(lowest, (vertex - p) * n);
+          highest = std::max(highest, (vertex - p) * n);
+        }
+      smallest = std::min(smallest, a.norm());
+      if (highest > 1e-6)
+        ball += a.norm();
+      else
+        {
+          disc += a.norm();
+          outward = outward && a * n < 0;
+        }
+    }
+  const double height     = (diagonal_point<dim>(0.5) - p) * n;
+  const double half_width = std::sqrt(0.09 - height * height);
+  const double exact_ball =
+    dim == 2 ? 0.6 * std::acos(-height / 0.3) : 0.6 * numbers::PI * (0.3 + height);
+  const double exact_disc = dim == 2 ? 2 * half_width : numbers::PI * half_width * half_width;
+  tests::out() << dim << "D cut: " << n_open<dim>(ply) << " open, area / exact "
+               << ball / exact_ball << " and " << disc / exact_disc
+               << (lowest > -1e-6 ? ", above the plane" : ", BELOW THE PLANE")
+               << (outward ? "" : ", TURNED") << (smallest > 0 ? "" : ", EMPTY FACETS")
+               << std::endl;
+}
+
+template <int dim>
+void
+check_cut(const MPI_Comm &comm, const double offset, const bool is_tilted)
+{
+  static std::map<std::pair<double, bool>, std::string> of_one_rank;
+  Tensor<1, dim>                                        normal;
+  normal[dim - 1] = 1;
+  if (is_tilted)
+    {
+      normal[0] = 0.4;
+      normal[1] += 0.3;
+    }
+  normal /= normal.norm();
+  typename Scene<dim>::Parameters parameters = tests::ball_scene<dim>();
+  parameters.solids.resize(1);
+  parameters.solids[0].shape  = "half space";
+  parameters.solids[0].normal = normal;
+  parameters.solids[0].centre = diagonal_point<dim>(0.5) - offset * normal;
+  const Scene<dim> scene(parameters);
+  const State<dim> state = tests::ball_state<dim>(comm);
+  SurfaceWriter<dim>({"ply"}).write(state, LiquidDomain<dim>(state, scene, 0.01), "out", 1);
+  if (Utilities::MPI::this_mpi_process(comm) > 0)
+    return;
+  const std::string bytes = read("out/frames/surface_00001.ply");
+  std::string      &first = of_one_rank[{offset, is_tilted}];
+  if (first.empty())
+    {
+      first = bytes;
+      describe_cut<dim>(read_ply<dim>(bytes), parameters.solids[0].centre, normal);
+    }
+  tests::out() << (bytes == first ? "same file" : "DIFFERENT FILE") << std::endl;
 }
 
 template <int dim>
@@ -100,8 +190,10 @@ check(const MPI_Comm &comm)
 {
   static std::string of_one_rank;
   State<dim>         state = tests::ball_state<dim>(comm);
+  const Scene<dim>   scene(tests::ball_scene<dim>());
+  const LiquidDomain<dim> domain(state, scene, 0.01);
   for (const char *format : {"obj", "vtp", "none", "ply"})
-    SurfaceWriter<dim>({format}).write(state, "out", dim);
+    SurfaceWriter<dim>({format}).write(state, domain, "out", dim);
   const std::string name = "out/frames/surface_0000" + std::to_string(dim);
   if (Utilities::MPI::this_mpi_process(comm) == 0)
     {
@@ -117,7 +209,7 @@ check(const MPI_Comm &comm)
     }
   state.phi = 1;
   state.phi.update_ghost_values();
-  SurfaceWriter<dim>({"ply"}).write(state, "out", 0);
+  SurfaceWriter<dim>({"ply"}).write(state, domain, "out", 0);
   if (Utilities::MPI::this_mpi_process(comm) == 0)
     tests::out() << "empty: "
                  << read_ply<dim>(read("out/frames/surface_00000.ply")).facets.size()
@@ -131,5 +223,11 @@ main(int argc, char **argv)
   tests::on_1_2_3_ranks([](const MPI_Comm &comm) {
     check<2>(comm);
     check<3>(comm);
+    for (const double offset : {0., 0.125})
+      for (const bool is_tilted : {false, true})
+        {
+          check_cut<2>(comm, offset, is_tilted);
+          check_cut<3>(comm, offset, is_tilted);
+        }
   });
 }

@@ -4,14 +4,15 @@
 #ifndef treacle_io_surface_writer_h
 #define treacle_io_surface_writer_h
 
-#include <treacle/fields/state.h>
+#include <treacle/fields/liquid_domain.h>
 
 #include <deal.II/base/parameter_handler.h>
 
 namespace treacle
 {
-  /// Writes the liquid's surface with its velocity, one file a frame. Which
-  /// ranks there are does not change a byte of it.
+  /// Writes the surface of the liquid outside solids with its velocity, one file a frame:
+  /// closed along solids, open on the box. Which ranks there are
+  /// does not change a byte of it.
   template <int dim>
   class SurfaceWriter
   {
@@ -31,9 +32,10 @@ namespace treacle
     /// `<directory>/frames/surface_00000.ply`, say. Throws a UserError on all
     /// ranks where that fails. Collective.
     void
-    write(const State<dim>  &state,
-          const std::string &directory,
-          const unsigned int frame) const;
+    write(const State<dim>        &state,
+          const LiquidDomain<dim> &domain,
+          const std::string       &directory,
+          const unsigned int       frame) const;
 
   private:
     std::string format;

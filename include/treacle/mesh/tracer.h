@@ -11,13 +11,15 @@ namespace treacle
   /// A node field, P1 in a cell. With nodal gradients g (1/m) and their smoothness s
   /// (1 where the field has one, 0 at kinks) it is evaluated as
   /// `sum lambda_i f_i + (sum lambda_i s_i) sum lambda_i g_i·(x - x_i)/2`, which is
-  /// continuous, and exact for quadratic fields where s = 1.
+  /// continuous, and exact for quadratic fields where s = 1. With a correction e it is
+  /// f + e, limited to the values of f at the nodes of the cell.
   template <int dim>
   struct NodeField
   {
     const Vector          *value;
     const NodeVector<dim> *gradient   = nullptr;
     const Vector          *smoothness = nullptr;
+    const Vector          *correction = nullptr;
   };
 
   /// Follows paths and evaluates node fields anywhere in the box: what lies on

@@ -6,14 +6,29 @@
 
 #include <treacle/fields/liquid_domain.h>
 
+#include <deal.II/base/parameter_handler.h>
+
 namespace treacle
 {
-  /// Semi-Lagrangian advection from the old state into a new or the same mesh.
+  /// Semi-Lagrangian advection from the old state into a new or the same mesh, of the
+  /// velocity also after MacCormack (Selle et al. 2008): what is lost on the way back and
+  /// forth is added to it, within the bounds of the cell that it is read from.
   template <int dim>
   class Advection
   {
   public:
-    Advection(const State<dim> &old, const LiquidDomain<dim> &domain);
+    struct Parameters
+    {
+      std::string scheme = "semi-Lagrangian";
+
+      /// Subsection Advection.
+      void
+      add_parameters(ParameterHandler &prm);
+    };
+
+    Advection(const Parameters        &parameters,
+              const State<dim>        &old,
+              const LiquidDomain<dim> &domain);
 
     /// The state at old.time + dt: phi, carried material, and u within @p reach (m)
     /// of the liquid.
@@ -29,6 +44,22 @@ namespace treacle
     level_set(const std::vector<Point<dim>> &x, const double dt) const;
 
   private:
+    /// Values of old node fields, by the scheme, at points from which @p velocity
+    /// carries them on: [point * fields + field].
+    std::vector<double>
+    carried(const std::vector<const Vector *> &fields,
+            const NodeVector<dim>             &velocity,
+            const std::vector<Point<dim>>     &from,
+            const double                       dt,
+            const double                       reach) const;
+
+    void
+    advance_nodes(State<dim> &state, const double dt, const double reach) const;
+
+    void
+    advance_faces(State<dim> &state, const double dt, const double reach) const;
+
+    const Parameters  prm;
     const State<dim> &old;
     /// What moves the surface: the node velocity, but at walls and in solids that
     /// of the nodes beside them. With the wall's own velocity a film of air

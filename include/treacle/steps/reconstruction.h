@@ -15,7 +15,6 @@ namespace treacle
   public:
     struct Parameters
     {
-      std::string scheme = "semi-Lagrangian";
       std::string method = "face fitted";
 
       /// Subsection Advection.

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_io_liquid_surface_h
+#define treacle_io_liquid_surface_h
+
+#include <treacle/fields/liquid_domain.h>
+
+namespace treacle
+{
+  /// The surface of the liquid as it is written: that of { phi < 0 } outside solids,
+  /// with phi and the solid distance P1 in a cell. It is closed along solids and open on
+  /// the box; area_vector() of a facet points out of the liquid.
+  template <int dim>
+  struct LiquidSurface
+  {
+    struct Vertex
+    {
+      /// Of the nodes that the vertex lies between, in ascending order: two, or three
+      /// where the surface meets a solid. The rest is no_key. The last entry says
+      /// what vanishes there: 1 phi, 2 the solid distance, 3 both.
+      std::array<VertexKey, 4> keys;
+      std::array<float, 6>     values; ///< position, velocity; z = 0 in 2D
+    };
+
+    static constexpr VertexKey no_key = ~VertexKey(0);
+
+    using Facet = std::array<std::int32_t, dim>;
+
+    std::vector<Vertex> vertices;
+    std::vector<Facet>  facets; ///< vertex indices
+  };
+
+  /// The whole surface on rank 0, in an order that no partition changes. Collective.
+  template <int dim>
+  LiquidSurface<dim>
+  gather_liquid_surface(const State<dim> &state, const LiquidDomain<dim> &domain);
+} // namespace treacle
+
+#endif

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exchange.h>
+#include <treacle/geometry/marching.h>
+#include <treacle/io/liquid_surface.h>
+
+namespace treacle
+{
+  namespace
+  {
+    /// The part of this rank. A cell's liquid is where two P1 functions are negative, phi
+    /// and minus the solid distance: its surface is the zero of each where the other is
+    /// negative. The two meet in points of triangles (a face; in 2D the cell), which are
+    /// computed from the values at the triangle's nodes in the order of their keys: so
+    /// cells and ranks agree on them.
+    template <int dim>
+    class OwnSurface
+    {
+    public:
+      OwnSurface(const State<dim> &state, const LiquidDomain<dim> &domain)
+        : state(state)
+        , mesh(*state.mesh)
+      {
+        for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+          {
+            cell                        = c;
+            const VertexValues<dim> phi = mesh.values(c, state.phi);
+            if (*std::min_element(phi.begin(), phi.end()) >= 0)
+              continue;
+            VertexValues<dim> solid;
+            for (unsigned int i = 0; i <= dim; ++i)
+              {
+                solid[i] = -domain.solid_distance[mesh.cell_nodes[c][i]];
+                if (std::abs(solid[i]) < 1e-9 * mesh.finest_size())
+                  solid[i] = 0; // a solid on a lattice plane
+              }
+            add_facets(phi, solid, 1);
+            add_facets(solid, phi, 2);
+          }
+      }
+
+      LiquidSurface<dim> surface;
+
+    private:
+      using Edge   = std::array<unsigned char, 2>;
+      using Vertex = typename LiquidSurface<dim>::Vertex;
+
+      VertexKey
+      key(const unsigned char i) const
+      {
+        return mesh.node_key[mesh.cell_nodes[cell][i]];
+      }
+
+      /// The facets of f = 0 where g < 0; @p zero says which of the two f is.
+      void
+      add_facets(const VertexValues<dim> &f, const VertexValues<dim> &g, const VertexKey zero)
+      {
+        const Facets<dim> facets = surface_facets<dim>(f);
+        if (facets.n == 0)
+          return;
+        std::vector<Edge> polygon(facets.facet[0].begin(), facets.facet[0].end());
+        if (facets.n == 2)
+          polygon.push_back(facets.facet[1][dim - 1]);
+
+        std::vector<std::int32_t> part;
+        const unsigned int        n_edges = dim == 2 ? 1 : polygon.size();
+        for (unsigned int i = 0; i < polygon.size(); ++i)
+          {
+            const Edge &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+            if (is_negative(f, g, p))
+              part.push_back(vertex({{p[0], p[1]}}, f, g, zero));
+            if (i < n_edges && is_negative(f, g, p) != is_negative(f, g, q))
+              part.push_back(
+                vertex({{p[0], p[1], q[0] == p[0] || q[0] == p[1] ? q[1] : q[0]}}, f, g, 3));
+          }
+        for (unsigned int k = 0; k + dim <= part.size(); ++k)
+          {
+            typename LiquidSurface<dim>::Facet facet{{part[0]}};
+            for (unsigned int i = 1; i < dim; ++i)
+              facet[i] = part[k + i];
+            auto sorted = facet;
+            std::sort(sorted.begin(), sorted.end());
+            if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end())
+              surface.facets.push_back(facet);
+          }
+      }
+
+      /// Whether g < 0 where f = 0 on an edge. The same product decides, up to its sign,
+      /// when f and g change their parts.
+      bool
+      is_negative(const VertexValues<dim> &f, const VertexValues<dim> &g, const Edge &e) const
+      {
+        const unsigned char a = key(e[0]) < key(e[1]) ? e[0] : e[1];
+        const unsigned char b = e[0] + e[1] - a;
+        const double        d = f[a] * g[b] - f[b] * g[a];
+        return f[a] < f[b] ? d > 0 : d < 0;
+      }
+
+      /// Where f = 0 on the edge between two vertices of the cell, or f = g = 0 in the
+      /// triangle of three. Vertices without weight do not count.
+      std::int32_t
+      vertex(std::vector<unsigned char> corners,
+             const VertexValues<dim>   &f,
+             const VertexValues<dim>   &g,
+             const VertexKey            zero)
+      {
+        std::sort(corners.begin(), corners.end(), [&](const auto i, const auto j) {
+          return key(i) < key(j);
+        });
+        const unsigned int    n = corners.size();
+        std::array<double, 3> weight{};
+        double                sum = 0;
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const unsigned char j = corners[(i + 1) % n], k = corners[(i + 2) % n];
+            weight[i] = n == 2 ? std::abs(f[j]) : std::abs(f[j] * g[k] - f[k] * g[j]);
+            sum += weight[i];
+          }
+
+        Vertex         result{{{no_key, no_key, no_key, zero}}, {}};
+        unsigned int   n_keys = 0;
+        Point<dim>     x;
+        Tensor<1, dim> v;
+        for (unsigned int i = 0; i < n; ++i)
+          if (weight[i] > 0)
+            {
+              const LocalIndex node = mesh.cell_nodes[cell][corners[i]];
+              result.keys[n_keys++] = mesh.node_key[node];
+              x += weight[i] / sum * mesh.node_position[node];
+              v += weight[i] / sum * state.v.value(node);
+            }
+        const auto [it, is_new] = index.emplace(result.keys, surface.vertices.size());
+        if (is_new)
+          {
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                result.values[d]     = x[d];
+                result.values[3 + d] = v[d];
+              }
+            surface.vertices.push_back(result);
+          }
+        return it->second;
+      }
+
+      static constexpr VertexKey no_key = LiquidSurface<dim>::no_key;
+
+      const State<dim>                                &state;
+      const Mesh<dim>                                 &mesh;
+      LocalIndex                                       cell = invalid;
+      std::map<std::array<VertexKey, 4>, std::int32_t> index;
+    };
+  } // namespace
+
+  // Vertices of several ranks are welded and in the order of their keys. Facets are in
+  // the order of the cells, for each rank has a range of those.
+  template <int dim>
+  LiquidSurface<dim>
+  gather_liquid_surface(const State<dim> &state, const LiquidDomain<dim> &domain)
+  {
+    using Vertex = typename LiquidSurface<dim>::Vertex;
+    using Facet  = typename LiquidSurface<dim>::Facet;
+
+    const MPI_Comm    &comm    = state.mesh->communicator();
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+    PerRank<Vertex>    vertices(n_ranks);
+    PerRank<Facet>     facets(n_ranks);
+    {
+      LiquidSurface<dim> own = std::move(OwnSurface<dim>(state, domain).surface);
+      vertices[0]            = std::move(own.vertices);
+      facets[0]              = std::move(own.facets);
+    }
+    vertices = send_and_receive(comm, vertices);
+    facets   = send_and_receive(comm, facets);
+
+    LiquidSurface<dim> result;
+    for (const auto &of_rank : vertices)
+      result.vertices.insert(result.vertices.end(), of_rank.begin(), of_rank.end());
+    const auto is_before = [](const Vertex &p, const Vertex &q) { return p.keys < q.keys; };
+    const auto is_same   = [](const Vertex &p, const Vertex &q) { return p.keys == q.keys; };
+    std::sort(result.vertices.begin(), result.vertices.end(), is_before);
+    result.vertices.erase(std::unique(result.vertices.begin(), result.vertices.end(), is_same),
+                          result.vertices.end());
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      {
+        std::vector<std::int32_t> index;
+        for (const Vertex &vertex : vertices[r])
+          index.push_back(
+            std::lower_bound(
+              result.vertices.begin(), result.vertices.end(), vertex, is_before) -
+            result.vertices.begin());
+        for (Facet facet : facets[r])
+          {
+            for (auto &i : facet)
+              i = index[i];
+            result.facets.push_back(facet);
+          }
+      }
+    return result;
+  }
+
+  template LiquidSurface<2>
+  gather_liquid_surface(const State<2> &, const LiquidDomain<2> &);
+  template LiquidSurface<3>
+  gather_liquid_surface(const State<3> &, const LiquidDomain<3> &);
+} // namespace treacle
