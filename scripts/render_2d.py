@@ -27,7 +27,7 @@ def filled(loops, **style):
 def draw_box(axes, run):
     axes.add_patch(Rectangle(run.lower, *(run.upper - run.lower), fill=False,
                              edgecolor=FRAME, linewidth=1.5, zorder=5))
-    for shape, value, inside_out in run.bodies():
+    for shape, value, inside_out in run.solids():
         if shape == "sphere":
             patch = Circle(value("Centre"), value("Radius")[0])
         elif shape == "box":

@@ -111,17 +111,16 @@ class Pictures3D:
         self.actors.append(actor)
 
     def _solids(self):
-        for kind in "Solid", "Emitter":
-            for shape, value, inside_out in self.run.bodies(kind):
-                source = body(shape, value, self.run)
-                if source is None:
-                    continue
-                material = self.studio.add(source).GetProperty()
-                material.SetColor(*SOLID)
-                material.SetInterpolationToPBR()
-                material.SetRoughness(0.6)
-                if inside_out:
-                    material.SetOpacity(0.12)
+        for shape, value, inside_out in self.run.solids():
+            source = body(shape, value, self.run)
+            if source is None:
+                continue
+            material = self.studio.add(source).GetProperty()
+            material.SetColor(*SOLID)
+            material.SetInterpolationToPBR()
+            material.SetRoughness(0.6)
+            if inside_out:
+                material.SetOpacity(0.12)
 
 
 def body(shape, value, run):

@@ -72,11 +72,11 @@ class Run:
         raise DataError(f"there is no mesh {path.with_suffix('.pvtu')}: "
                         "it needs 'Mesh format = vtu'")
 
-    def bodies(self, kind="Solid"):
-        """The bodies `kind 1`, ... as (shape, function from a parameter's name to its
+    def solids(self):
+        """The solids as (shape, function from a parameter's name to its
         numbers, inside out)."""
         for k in range(1, 100):
-            block = f"{kind} {k}/"
+            block = f"Solid {k}/"
             if not any(name.startswith(block) for name in self.parameters):
                 return
             yield (self.parameters.get(block + "Shape", "sphere"),
