@@ -123,6 +123,7 @@ namespace treacle
     state->phi.update_ghost_values();
     check_liquids();
     redistance(*state, reach);
+    tracking.reseed(*state, scene);
 
     domain = std::make_unique<LiquidDomain<dim>>(*state, scene, prm.projection.minimum_theta);
     volume = domain->total_volume();
@@ -203,9 +204,13 @@ namespace treacle
   Simulator<dim>::move_surface(const double dt)
   {
     const Advection<dim> advection(*state, *domain);
-    const auto           mesh = [&] {
+    const auto           markers = [&] {
+      const auto section = timing.section("markers");
+      return advection.move_markers(dt);
+    }();
+    const auto mesh = [&] {
       const auto section = timing.section("mesh");
-      return mesh_for_next_surface(*state, advection, dt);
+      return mesh_for_next_surface(*state, advection, markers, dt);
     }();
     info.rebuilt = mesh != state->mesh;
     State<dim> next = [&] {
@@ -214,6 +219,7 @@ namespace treacle
     }();
     {
       const auto section = timing.section("surface");
+      next.markers       = to_owners(mesh->octree(), markers);
       tracking.advance(next, scene, reach, volume);
     }
     if (!info.rebuilt) // the first guess of the next solves

@@ -4,7 +4,7 @@
 #include <treacle/fields/mapping.h>
 #include <treacle/mesh/tracer.h>
 #include <treacle/steps/advection.h>
-#include <treacle/steps/redistance.h>
+#include <treacle/steps/marker_correction.h>
 
 namespace treacle
 {
@@ -50,14 +50,8 @@ namespace treacle
   Advection<dim>::Advection(const State<dim> &old, const LiquidDomain<dim> &domain)
     : old(old)
     , surface_velocity(slipping_velocity(old, domain))
-    , phi_gradient(nodal_gradient(*old.mesh, old.phi))
-    , phi_smoothness(old.mesh->nodes)
-  {
-    // at kinks the mean over the cells around is shorter than 1
-    for (LocalIndex node = 0; node < old.mesh->n_owned_nodes(); ++node)
-      phi_smoothness.local_element(node) = std::abs(phi_gradient.value(node).norm() - 1) < 0.1;
-    phi_smoothness.update_ghost_values();
-  }
+    , phi(*old.mesh, old.phi)
+  {}
 
   template <int dim>
   std::vector<Point<dim>>
@@ -67,11 +61,17 @@ namespace treacle
   }
 
   template <int dim>
+  std::vector<Marker<dim>>
+  Advection<dim>::move_markers(const double dt) const
+  {
+    return moved_markers(old, surface_velocity, dt);
+  }
+
+  template <int dim>
   std::vector<double>
   Advection<dim>::level_set(const std::vector<Point<dim>> &x, const double dt) const
   {
-    const Tracer<dim> tracer(*old.mesh);
-    return tracer.evaluate(tracer.trace(x, surface_velocity, -dt), {{&old.phi, &phi_gradient, &phi_smoothness}});
+    return phi.values(Tracer<dim>(*old.mesh).trace(x, surface_velocity, -dt));
   }
 
   template <int dim>

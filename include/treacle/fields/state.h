@@ -4,6 +4,7 @@
 #ifndef treacle_fields_state_h
 #define treacle_fields_state_h
 
+#include <treacle/fields/marker.h>
 #include <treacle/mesh/mesh.h>
 
 #include <memory>
@@ -32,6 +33,9 @@ namespace treacle
     Vector            u;        ///< face velocity, along the face's normal (m/s)
     NodeVector<dim>   v;        ///< node velocity, for tracing and output (m/s)
     Vector            pressure; ///< at dual centres, of the last projection (Pa)
+
+    /// Each on the rank that owns the leaf it lies in; none without marker level set.
+    std::vector<Marker<dim>> markers;
   };
 } // namespace treacle
 
