@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/base/exchange.h>
-#include <treacle/mesh/near_ranks.h>
+#include <treacle/fields/near_markers.h>
 #include <treacle/steps/marker_correction.h>
 #include <treacle/steps/redistance.h>
 #include <treacle/steps/smooth_level_set.h>
@@ -45,138 +44,118 @@ namespace treacle
 
   namespace
   {
-    /// A marker and phi at it.
     template <int dim>
-    struct Record
+    using Near = std::vector<const NearMarker<dim> *>;
+
+    /// How far a marker is felt, and the thickness below which films are left to phi, in
+    /// finest leaves.
+    constexpr double reach = 1.25, thinnest = 0.5;
+
+    double
+    weight(const double squared_distance, const double h)
     {
-      Marker<dim> marker;
-      double      phi;
+      return std::pow(1 - squared_distance / (reach * reach * h * h), 2);
+    }
+
+    /// A sheet of markers that face one way, as seen from a node.
+    struct Sheet
+    {
+      double distance;  ///< signed (m)
+      bool   is_beside; ///< the node lies beyond the sheet's end
     };
 
-    /// Markers of this rank, and of others within a margin of its leaves, by finest cube.
+    /// The nearest of some markers.
     template <int dim>
-    class NearMarkers
+    const Marker<dim> &
+    nearest(const Point<dim> &x, const Near<dim> &markers)
     {
-    public:
-      NearMarkers(const State<dim> &state, const double reach)
-        : octree(state.mesh->octree())
-        , reach(reach)
-      {
-        const MPI_Comm           &comm = octree.communicator();
-        const NearRanks<dim>      near(octree, reach);
-        const std::vector<double> phi =
-          SmoothLevelSet<dim>(*state.mesh, state.phi).values(positions(state.markers));
-        PerRank<std::array<double, 2 * dim + 1>> to_rank(near.n_ranks());
-        for (unsigned int k = 0; k < state.markers.size(); ++k)
-          {
-            const Marker<dim> &marker = state.markers[k];
-            records.push_back({marker, phi[k]});
-            near.for_each({{marker.position, marker.position}}, [&](const unsigned int r) {
-              const auto numbers = marker.numbers();
-              to_rank[r].emplace_back();
-              std::copy(numbers.begin(), numbers.end(), to_rank[r].back().begin());
-              to_rank[r].back().back() = phi[k];
-            });
-          }
-        for (const auto &received : send_and_receive(comm, to_rank))
-          for (const auto &numbers : received)
-            records.push_back({Marker<dim>::from(numbers.data()), numbers.back()});
-        sort_into_cubes();
-      }
+      return (*std::min_element(markers.begin(),
+                                markers.end(),
+                                [&](const auto *a, const auto *b) {
+                                  return (x - a->marker.position).norm_square() <
+                                         (x - b->marker.position).norm_square();
+                                }))
+        ->marker;
+    }
 
-      /// Markers closer than the reach.
-      void
-      around(const Point<dim> &x, std::vector<const Record<dim> *> &result) const
-      {
-        result.clear();
-        Point<dim> lower = x, upper = x;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            lower[d] -= reach;
-            upper[d] += reach;
-          }
-        const LatticePoint<dim> first = octree.finest_cube(lower), last = octree.finest_cube(upper);
-        for (LatticePoint<dim> cube = first; cube[dim - 1] <= last[dim - 1];)
-          {
-            if (const auto found = cubes.find(pack<dim>(cube)); found != cubes.end())
-              for (unsigned int k = found->second.first; k < found->second.second; ++k)
-                if ((records[k].marker.position - x).norm_square() < reach * reach)
-                  result.push_back(&records[k]);
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                cube[d] += 2;
-                if (cube[d] <= last[d] || d == dim - 1)
-                  break;
-                cube[d] = first[d];
-              }
-          }
-      }
+    /// The mean distance from the planes of markers. With the mean of two normals it is
+    /// exact for a sphere.
+    template <int dim>
+    Sheet
+    sheet(const Point<dim> &x, const Near<dim> &markers, const double h)
+    {
+      double         sum = 0, distance = 0;
+      Tensor<1, dim> mean;
+      for (const NearMarker<dim> *m : markers)
+        mean += weight((x - m->marker.position).norm_square(), h) * m->marker.normal;
+      mean /= mean.norm();
+      for (const NearMarker<dim> *m : markers)
+        {
+          const Tensor<1, dim> r = x - m->marker.position;
+          const double         w = weight(r.norm_square(), h);
+          sum += w;
+          distance += w * 0.5 * (r * (m->marker.normal + mean));
+        }
+      const Marker<dim>   &foot  = nearest(x, markers);
+      const Tensor<1, dim> r     = x - foot.position;
+      const double         along = std::pow(0.4 * reach * h, 2); // more than between markers
+      return {distance / sum, r.norm_square() - std::pow(r * foot.normal, 2) > along};
+    }
 
-    private:
-      void
-      sort_into_cubes()
-      {
-        std::vector<std::pair<VertexKey, unsigned int>> order;
-        for (unsigned int k = 0; k < records.size(); ++k)
-          order.emplace_back(pack<dim>(octree.finest_cube(records[k].marker.position)), k);
-        std::sort(order.begin(), order.end());
-        std::vector<Record<dim>> sorted;
-        sorted.reserve(records.size());
-        for (const auto &[key, k] : order)
-          {
-            const unsigned int at = sorted.size();
-            cubes.emplace(key, std::make_pair(at, at)).first->second.second = at + 1;
-            sorted.push_back(records[k]);
-          }
-        records = std::move(sorted);
-      }
-
-      const Octree<dim>                                                        &octree;
-      const double                                                              reach;
-      std::vector<Record<dim>>                                                  records;
-      std::unordered_map<VertexKey, std::pair<unsigned int, unsigned int>> cubes;
-    };
-
-    /// phi at a node from the markers around it; @p old is what it was.
+    /// phi at a node near parts so thin, or edges so sharp, that the level set says
+    /// nothing there: from the sheets of markers around. @p old is what phi was.
     template <int dim>
     double
-    corrected(const Point<dim>                       &x,
-              const double                            old,
-              const std::vector<const Record<dim> *> &near,
-              const double                            reach)
+    distance_from_sheets(const Point<dim> &x,
+                         const double      old,
+                         const Near<dim>  &same,
+                         const Near<dim>  &opposed,
+                         const double      h)
     {
-      static const int mode = std::getenv("MODE") ? atoi(std::getenv("MODE")) : 3;
-      const auto squared = [&](const Record<dim> *r) {
-        return (r->marker.position - x).norm_square();
-      };
-      const Tensor<1, dim> facing =
-        (*std::min_element(near.begin(), near.end(), [&](const auto *a, const auto *b) {
-          return squared(a) < squared(b);
-        }))->marker.normal;
-      bool           opposed = false;
-      double         sum = 0, residual = 0;
-      Tensor<1, dim> mean;
-      for (const Record<dim> *r : near)
+      const Sheet first = sheet(x, same, h);
+      if (first.is_beside)
+        return old;
+      if (opposed.empty())
+        return first.distance;
+      const Sheet second = sheet(x, opposed, h);
+      if (second.is_beside)
+        return first.distance;
+      // of liquid between two sheets; negative: of air. The sum is the same on either
+      // side of both, so it tells a film from a gap. Sheets that come closer than
+      // markers are exact may have crossed: to trust them would let films grow
+      const double thickness = -(first.distance + second.distance);
+      if (std::abs(thickness) < thinnest * h)
+        return old;
+      return thickness > 0 ? std::max(first.distance, second.distance) :
+                             std::min(first.distance, second.distance);
+    }
+
+    /// phi at a node from the markers around it; those on the far side of a thin part
+    /// or of a corner do not count.
+    template <int dim>
+    double
+    corrected(const Point<dim> &x, const double old, const Near<dim> &near, const double h)
+    {
+      const Tensor<1, dim> facing = nearest(x, near).normal;
+      Near<dim>            same, opposed;
+      bool                 is_smooth = true;
+      double               sum = 0, residual = 0;
+      for (const NearMarker<dim> *m : near)
         {
-          const double same = r->marker.normal * facing;
-          opposed           = opposed || same < -0.3;
-          if (mode != 1 && same <= 0)
+          const double along = m->marker.normal * facing;
+          if (along < -0.3)
+            opposed.push_back(m);
+          if (along <= 0)
             continue;
-          const double w = std::pow(1 - squared(r) / (reach * reach), 2);
+          same.push_back(m);
+          const double w = weight((x - m->marker.position).norm_square(), h);
+          is_smooth      = is_smooth && !std::isnan(m->value);
           sum += w;
-          residual += w * r->phi;
-          mean += w * r->marker.normal;
+          residual += w * m->value;
         }
-      if (mode == 1 || mode == 2 || (mode == 3 && !opposed))
+      if (opposed.empty() && is_smooth)
         return old - residual / sum;
-      // distance from planes; with the mean of two normals it is exact on a sphere
-      mean /= mean.norm();
-      double distance = 0;
-      for (const Record<dim> *r : near)
-        if (r->marker.normal * facing > 0)
-          distance += std::pow(1 - squared(r) / (reach * reach), 2) * 0.5 *
-                      ((x - r->marker.position) * (r->marker.normal + mean));
-      return distance / sum;
+      return distance_from_sheets(x, old, same, opposed, h);
     }
   } // namespace
 
@@ -184,19 +163,22 @@ namespace treacle
   void
   correct_by_markers(State<dim> &state)
   {
-    const Mesh<dim>       &mesh  = *state.mesh;
-    static const double fac = std::getenv("REACH") ? atof(std::getenv("REACH")) : 1.25;
-    const double           reach = fac * mesh.finest_size();
-    const NearMarkers<dim> markers(state, reach);
-    std::vector<const Record<dim> *> near;
+    const Mesh<dim>    &mesh = *state.mesh;
+    const double        h    = mesh.finest_size();
+    std::vector<double> values;
+    for (const auto &at : SmoothLevelSet<dim>(mesh, state.phi).samples(positions(state.markers)))
+      values.push_back(at.smoothness < 0.5 ? std::nan("") : at.value);
+    const NearMarkers<dim> markers(mesh.octree(), state.markers, values, reach * h);
+    Near<dim>              near;
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
         double &phi = state.phi.local_element(node);
-        if (std::abs(phi) > 3 * mesh.finest_size())
+        if (std::abs(phi) > 3 * h)
           continue;
-        markers.around(mesh.node_position[node], near);
+        const Point<dim> &x = mesh.node_position[node];
+        markers.around(x, near);
         if (!near.empty())
-          phi = corrected(mesh.node_position[node], phi, near, reach);
+          phi = corrected(x, phi, near, h);
       }
     state.phi.update_ghost_values();
   }

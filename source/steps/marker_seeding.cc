@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/exchange.h>
+#include <treacle/fields/near_markers.h>
 #include <treacle/fields/surface.h>
 #include <treacle/steps/marker_seeding.h>
 #include <treacle/steps/smooth_level_set.h>
@@ -15,7 +16,7 @@ namespace treacle
     const Mesh<dim> &mesh   = *state.mesh;
     const double     h      = mesh.finest_size();
     const auto      &box    = mesh.octree().parameters();
-    const auto       on_box = [&](const Point<dim> &x) {
+    const auto       on_box = [&, h](const Point<dim> &x) {
       for (unsigned int d = 0; d < dim; ++d)
         if (x[d] < box.lower_corner[d] + 1e-6 * h || x[d] > box.upper_corner[d] - 1e-6 * h)
           return true;
@@ -27,21 +28,20 @@ namespace treacle
     unsigned int             n_lost = 0;
     for (unsigned int k = 0; k < samples.size(); ++k)
       {
-        const auto &[x, normal] = state.markers[k];
-        const auto &phi         = samples[k];
-        // air beside a marker: the surface has lost it; deep in the liquid two
-        // surfaces have met
-        const bool is_lost = !(phi.value < h);
-        n_lost += is_lost;
-        if (!is_lost && phi.value > -h && !on_box(x) &&
-            !(phi.smoothness > 0.9 && phi.gradient * normal < 0) &&
-            !(scene.has_solids() && scene.solid_distance(x, state.time) < 0))
-          kept.push_back({x, normal});
-        else if (getenv("WHY"))
-          std::cout << "removed " << x << " n " << normal << " phi/h " << phi.value / h << " smooth " << phi.smoothness
-            << " g.n " << phi.gradient * normal << std::endl;
-        if (!kept.empty() && phi.smoothness > 0.9 && kept.back().position == x)
-          kept.back().normal = phi.gradient / phi.gradient.norm();
+        const Marker<dim>  &marker    = state.markers[k];
+        const double        phi       = samples[k].value;
+        const bool          is_smooth = samples[k].smoothness > 0.9;
+        const Tensor<1, dim> gradient = samples[k].gradient;
+        // in the liquid two surfaces may have met; but air around a marker, or no
+        // number, says that the surface was lost
+        n_lost += !(phi < h);
+        if (!(std::abs(phi) < 0.75 * h) || on_box(marker.position) ||
+            (is_smooth && gradient * marker.normal < 0) ||
+            (scene.has_solids() && scene.solid_distance(marker.position, state.time) < 0))
+          continue;
+        kept.push_back(marker);
+        if (is_smooth)
+          kept.back().normal = gradient / gradient.norm();
       }
     const MPI_Comm    &comm  = mesh.communicator();
     const unsigned int lost  = Utilities::MPI::sum(n_lost, comm);
@@ -207,12 +207,36 @@ namespace treacle
             });
           }
         project(seeds);
-        std::vector<Marker<dim>> outside;
-        for (const Marker<dim> &seed : seeds)
-          if (!scene.has_solids() || scene.solid_distance(seed.position, state.time) >= 0)
-            outside.push_back(seed);
-        const auto owned = to_owners(mesh.octree(), outside);
+        keep_in_line(seeds);
+        const auto owned = to_owners(mesh.octree(), seeds);
         state.markers.insert(state.markers.end(), owned.begin(), owned.end());
+      }
+
+      /// Where markers are about, they know better than phi where a surface runs: seeds
+      /// across it would be the ends of a thin part that phi cannot hold.
+      void
+      keep_in_line(std::vector<Marker<dim>> &seeds) const
+      {
+        const double           reach = 0.75 * mesh.finest_size();
+        const NearMarkers<dim> markers(mesh.octree(),
+                                       state.markers,
+                                       std::vector<double>(state.markers.size()),
+                                       reach);
+        std::vector<Marker<dim>>                   kept;
+        std::vector<const NearMarker<dim> *> near;
+        for (const Marker<dim> &seed : seeds)
+          {
+            if (scene.has_solids() && scene.solid_distance(seed.position, state.time) < 0)
+              continue;
+            markers.around(seed.position, near);
+            const auto nearest = std::min_element(near.begin(), near.end(), [&](const auto *a, const auto *b) {
+              return (a->marker.position - seed.position).norm_square() <
+                     (b->marker.position - seed.position).norm_square();
+            });
+            if (near.empty() || (*nearest)->marker.normal * seed.normal > 0.5)
+              kept.push_back(seed);
+          }
+        seeds = std::move(kept);
       }
 
       /// From the facets to the smooth surface they are chords of.

@@ -9,8 +9,9 @@
 
 namespace treacle
 {
-  /// Take away markers that no longer lie on the surface: further than a leaf from it,
-  /// on the box, in solids, or turned the wrong way. Throws a UserError on all ranks
+  /// Take away markers that no longer lie on the surface: 3/4 of a leaf from it, on the
+  /// box, in solids, or turned the wrong way; the others take the normal of phi where it
+  /// is smooth. Throws a UserError on all ranks
   /// where that leaves too few. Collective.
   template <int dim>
   void
