@@ -207,9 +207,9 @@ namespace treacle
             });
           }
         project(seeds);
+        seeds = to_owners(mesh.octree(), seeds);
         keep_in_line(seeds);
-        const auto owned = to_owners(mesh.octree(), seeds);
-        state.markers.insert(state.markers.end(), owned.begin(), owned.end());
+        state.markers.insert(state.markers.end(), seeds.begin(), seeds.end());
       }
 
       /// Where markers are about, they know better than phi where a surface runs: seeds
