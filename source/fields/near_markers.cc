@@ -15,7 +15,8 @@ namespace treacle
     : reach(reach)
     , octree(octree)
   {
-    const NearRanks<dim>                     near(octree, reach);
+    // a rank may own the centre of a leaf of another one, at the end of its cells
+    const NearRanks<dim>                     near(octree, reach + octree.finest_size());
     PerRank<std::array<double, 2 * dim + 1>> to_rank(near.n_ranks());
     for (unsigned int k = 0; k < markers.size(); ++k)
       {
