@@ -165,7 +165,7 @@ check(const MPI_Comm &comm, const std::string &name, const unsigned int level, c
       tracking.method            = method;
       tracking.volume_correction = false;
       const Errors e             = carry<dim>(comm, name, level, 2, tracking, part);
-      // edges and thin parts magnify rounding: only how large the errors are
+      // near edges and thin parts 1, 2 and 3 ranks differ in the second digit
       const auto size_of = [](const double x) {
         return x < 2e-4 ? "2e-4" : x < 2e-3 ? "2e-3" : x < 1e-2 ? "1e-2" : x < 0.1 ? "0.1" : "1";
       };
