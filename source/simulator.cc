@@ -131,6 +131,7 @@ namespace treacle
         set_initial_material(*state, scene);
         extend_material(*state, n_layers());
       }
+    tracking.reseed(*state, scene);
 
     domain = std::make_unique<LiquidDomain<dim>>(*state, scene, prm.projection.minimum_theta);
     volume = domain->total_volume();
@@ -216,9 +217,13 @@ namespace treacle
   Simulator<dim>::move_surface(const double dt)
   {
     const Advection<dim> advection(prm.advection, *state, *domain);
-    const auto           mesh = [&] {
+    const auto           markers = [&] {
+      const auto section = timing.section("markers");
+      return advection.move_markers(dt);
+    }();
+    const auto mesh = [&] {
       const auto section = timing.section("mesh");
-      return mesh_for_next_surface(*state, scene, advection, dt);
+      return mesh_for_next_surface(*state, scene, advection, markers, dt);
     }();
     info.rebuilt = mesh != state->mesh;
     State<dim> next = [&] {
@@ -229,6 +234,7 @@ namespace treacle
       const auto section = timing.section("surface");
       info.emitted = emit(next, scene, dt);
       volume += info.emitted;
+      next.markers       = to_owners(mesh->octree(), markers);
       tracking.advance(next, scene, reach, volume);
       if (next.material)
         extend_material(next, n_layers());

@@ -105,21 +105,47 @@ namespace treacle
     void
     write_info(std::ostream                             &out,
                const State<dim>                         &state,
+               const std::uint64_t                       n_markers,
                const typename Checkpoint<dim>::Progress &progress)
     {
       const Mesh<dim> &mesh = *state.mesh;
       const auto      &prm  = mesh.octree().parameters();
-      out << std::setprecision(17) << "Format = 1\nDimension = " << dim
+      out << std::setprecision(17) << "Format = 2\nDimension = " << dim
           << "\nRanks = " << Utilities::MPI::n_mpi_processes(mesh.communicator())
           << "\nTime = " << state.time << "\nStep = " << state.step
           << "\nFrame = " << progress.frame << "\nCells = " << mesh.cells->size()
           << "\nAdvected material = " << (state.material ? "true" : "false")
+          << "\nMarkers = " << n_markers
           << "\nLower corner = " << to_text(prm.lower_corner)
           << "\nUpper corner = " << to_text(prm.upper_corner)
           << "\nRoot cells = " << prm.root_cells
           << "\nSurface level = " << prm.surface_level << '\n';
       for (const auto &[name, value] : progress.scalars)
         out << scalar_prefix << name << " = " << value << '\n';
+    }
+  } // namespace
+
+  namespace
+  {
+    /// Each rank reads an even part; in this order a rank has its markers in the order in
+    /// which it saved them.
+    template <int dim>
+    std::vector<Marker<dim>>
+    load_markers(const Octree<dim>  &octree,
+                 const std::string  &directory,
+                 const std::uint64_t n)
+    {
+      const MPI_Comm          &comm    = octree.communicator();
+      const std::uint64_t      rank    = Utilities::MPI::this_mpi_process(comm);
+      const std::uint64_t      n_ranks = Utilities::MPI::n_mpi_processes(comm);
+      const std::uint64_t      begin   = n * rank / n_ranks, end = n * (rank + 1) / n_ranks;
+      constexpr unsigned int   size    = 2 * dim;
+      const auto               numbers = TableFile<double>::read(
+        comm, directory + "/markers", size * begin, size * (end - begin));
+      std::vector<Marker<dim>> part;
+      for (std::uint64_t k = 0; k < end - begin; ++k)
+        part.push_back(Marker<dim>::from(&numbers[size * k]));
+      return to_owners(octree, part);
     }
   } // namespace
 
@@ -150,8 +176,17 @@ namespace treacle
                            rows.push_back(v.local_element(i));
                          });
     TableFile<double>::write(comm, fresh + "/cells", rows);
+    std::vector<double> markers;
+    for (const Marker<dim> &marker : state.markers)
+      {
+        const auto numbers = marker.numbers();
+        markers.insert(markers.end(), numbers.begin(), numbers.end());
+      }
+    TableFile<double>::write(comm, fresh + "/markers", markers);
+    const auto n_markers =
+      Utilities::MPI::sum(static_cast<std::uint64_t>(state.markers.size()), comm);
     replace_file(comm, info_file(fresh), [&](std::ostream &out) {
-      write_info<dim>(out, state, progress);
+      write_info<dim>(out, state, n_markers, progress);
     });
 
     std::error_code error;
@@ -233,7 +268,7 @@ namespace treacle
               "\". Start it without --resume.");
 
     const CheckpointInfo info(text, info_file(directory));
-    info.require_same("Format", "the format", "1");
+    info.require_same("Format", "the format", "2");
     info.require_same("Dimension", "Dimension", std::to_string(dim));
     info.require_same("Lower corner",
                       "Domain/Lower corner",
@@ -274,6 +309,7 @@ namespace treacle
                          });
     if (state.material)
       state.material->update_ghost_values();
+    state.markers = load_markers<dim>(mesh->octree(), directory, std::stoull(info.get("Markers")));
     state.phi.update_ghost_values();
     state.u.update_ghost_values();
     state.v.update_ghost_values();

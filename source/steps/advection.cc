@@ -5,7 +5,7 @@
 #include <treacle/mesh/tracer.h>
 #include <treacle/steps/advection.h>
 #include <treacle/steps/back_and_forth.h>
-#include <treacle/steps/redistance.h>
+#include <treacle/steps/marker_correction.h>
 
 namespace treacle
 {
@@ -68,14 +68,8 @@ namespace treacle
     : prm(parameters)
     , old(old)
     , surface_velocity(slipping_velocity(old, domain))
-    , phi_gradient(nodal_gradient(*old.mesh, old.phi))
-    , phi_smoothness(old.mesh->nodes)
-  {
-    // at kinks the mean over the cells around is shorter than 1
-    for (LocalIndex node = 0; node < old.mesh->n_owned_nodes(); ++node)
-      phi_smoothness.local_element(node) = std::abs(phi_gradient.value(node).norm() - 1) < 0.1;
-    phi_smoothness.update_ghost_values();
-  }
+    , phi(*old.mesh, old.phi)
+  {}
 
   template <int dim>
   std::vector<Point<dim>>
@@ -85,11 +79,17 @@ namespace treacle
   }
 
   template <int dim>
+  std::vector<Marker<dim>>
+  Advection<dim>::move_markers(const double dt) const
+  {
+    return moved_markers(old, surface_velocity, dt);
+  }
+
+  template <int dim>
   std::vector<double>
   Advection<dim>::level_set(const std::vector<Point<dim>> &x, const double dt) const
   {
-    const Tracer<dim> tracer(*old.mesh);
-    return tracer.evaluate(tracer.trace(x, surface_velocity, -dt), {{&old.phi, &phi_gradient, &phi_smoothness}});
+    return phi.values(Tracer<dim>(*old.mesh).trace(x, surface_velocity, -dt));
   }
 
   template <int dim>
@@ -148,9 +148,8 @@ namespace treacle
                                     mesh.node_position.begin() + mesh.n_owned_nodes());
     const Tracer<dim>             tracer(*old.mesh);
     const std::vector<Point<dim>> from = tracer.trace(x, surface_velocity, -dt);
-    const std::vector<double>     phi =
-      tracer.evaluate(from, {{&old.phi, &phi_gradient, &phi_smoothness}});
-    std::copy(phi.begin(), phi.end(), state.phi.begin());
+    const std::vector<double>     values = phi.values(from);
+    std::copy(values.begin(), values.end(), state.phi.begin());
     state.phi.update_ghost_values();
     if (!old.material)
       return;

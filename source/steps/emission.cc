@@ -78,6 +78,12 @@ namespace treacle
     state.phi.update_ghost_values();
     if (state.material)
       set_material(state, scene, time);
+    // the liquid that they bounded has come in from behind
+    const auto is_inside = [&](const Marker<dim> &marker) {
+      return scene.emitter_distance(marker.position, time) < -0.1 * mesh.finest_size();
+    };
+    state.markers.erase(std::remove_if(state.markers.begin(), state.markers.end(), is_inside),
+                        state.markers.end());
     return liquid_volume(mesh, state.phi, scene, state.time) -
            liquid_volume(mesh, before, scene, state.time);
   }

@@ -147,15 +147,18 @@ namespace treacle
 
   template <int dim>
   std::shared_ptr<const Mesh<dim>>
-  mesh_for_next_surface(const State<dim>     &state,
-                        const Scene<dim>     &scene,
-                        const Advection<dim> &advection,
-                        const double          dt)
+  mesh_for_next_surface(const State<dim>               &state,
+                        const Scene<dim>               &scene,
+                        const Advection<dim>           &advection,
+                        const std::vector<Marker<dim>> &markers,
+                        const double                    dt)
   {
     const Mesh<dim>              &mesh   = *state.mesh;
     const Octree<dim>            &octree = mesh.octree();
-    const std::vector<Point<dim>> moved =
+    std::vector<Point<dim>> moved =
       advection.move_surface(sample_points(extract_surface(mesh, state.phi)), dt);
+    for (const Marker<dim> &marker : markers)
+      moved.push_back(marker.position);
     if (Band<dim>(octree, moved, 1).is_finest_in(octree))
       return state.mesh;
     const Band<dim> band(octree, moved, octree.parameters().band_width);
@@ -177,7 +180,11 @@ namespace treacle
   template std::shared_ptr<const Mesh<dim>> initial_mesh(                       \
     const MPI_Comm &, const Octree<dim>::Parameters &, const Scene<dim> &);     \
   template std::shared_ptr<const Mesh<dim>> mesh_for_next_surface(              \
-    const State<dim> &, const Scene<dim> &, const Advection<dim> &, const double);
+    const State<dim> &,                                                         \
+    const Scene<dim> &,                                                         \
+    const Advection<dim> &,                                                     \
+    const std::vector<Marker<dim>> &,                                           \
+    const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/exchange.h>
+#include <treacle/mesh/near_ranks.h>
 #include <treacle/steps/surface_distance.h>
 
 #include <limits>
@@ -50,37 +51,6 @@ namespace treacle
       const double sum = va + vb + vc;
       return x[0] + (vb / sum) * ab + (vc / sum) * ac;
     }
-
-    /// Boxes around consecutive runs of owned leaves: a few tight ones say more
-    /// than one around all.
-    template <int dim>
-    std::vector<BoundingBox<dim>>
-    covering_boxes(const Octree<dim> &octree, const double margin)
-    {
-      constexpr unsigned int        n_boxes = 64;
-      const unsigned int            n       = octree.n_owned_leaves();
-      std::vector<BoundingBox<dim>> boxes;
-      for (unsigned int k = 0; k < n_boxes; ++k)
-        {
-          const unsigned int begin = static_cast<std::uint64_t>(n) * k / n_boxes;
-          const unsigned int end   = static_cast<std::uint64_t>(n) * (k + 1) / n_boxes;
-          if (begin == end)
-            continue;
-          std::vector<Point<dim>> corners;
-          for (unsigned int l = begin; l < end; ++l)
-            {
-              const Leaf<dim>  &leaf = octree.leaves()[l];
-              LatticePoint<dim> top  = leaf.origin;
-              for (int &i : top)
-                i += leaf.size;
-              corners.push_back(octree.position(leaf.origin));
-              corners.push_back(octree.position(top));
-            }
-          boxes.emplace_back(corners);
-          boxes.back().extend(margin);
-        }
-      return boxes;
-    }
   } // namespace
 
   template <int dim>
@@ -90,26 +60,20 @@ namespace treacle
   {
     const Surface<dim> surface = extract_surface(mesh, phi);
     const MPI_Comm    &comm    = mesh.communicator();
-    const unsigned int rank    = Utilities::MPI::this_mpi_process(comm);
-    const auto         boxes =
-      Utilities::MPI::all_gather(comm, covering_boxes(mesh.octree(), reach));
+    const NearRanks<dim>       near(mesh.octree(), reach);
 
-    PerRank<std::array<double, dim * dim>> to_rank(boxes.size());
+    PerRank<std::array<double, dim * dim>> to_rank(near.n_ranks());
     for (unsigned int k = 0; k < surface.facets.size(); ++k)
       {
         const Facet x = surface.facet_points(k);
         facets.push_back(x);
         const BoundingBox<dim> around(std::vector<Point<dim>>(x.begin(), x.end()));
-        for (unsigned int r = 0; r < boxes.size(); ++r)
-          if (r != rank && std::any_of(boxes[r].begin(), boxes[r].end(), [&](const auto &other) {
-                return other.get_neighbor_type(around) != NeighborType::not_neighbors;
-              }))
-            {
-              to_rank[r].emplace_back();
-              for (unsigned int i = 0; i < dim; ++i)
-                for (unsigned int d = 0; d < dim; ++d)
-                  to_rank[r].back()[dim * i + d] = x[i][d];
-            }
+        near.for_each(around, [&](const unsigned int r) {
+          to_rank[r].emplace_back();
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int d = 0; d < dim; ++d)
+              to_rank[r].back()[dim * i + d] = x[i][d];
+        });
       }
     for (const auto &received : send_and_receive(comm, to_rank))
       for (const auto &numbers : received)

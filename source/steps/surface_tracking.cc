@@ -2,6 +2,8 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/fields/surface.h>
+#include <treacle/steps/marker_correction.h>
+#include <treacle/steps/marker_seeding.h>
 #include <treacle/steps/redistance.h>
 #include <treacle/steps/surface_tracking.h>
 
@@ -14,8 +16,13 @@ namespace treacle
     prm.enter_subsection("Surface tracking");
     prm.add_parameter("Method",
                       method,
-                      "What follows the surface between two redistancings.",
-                      Patterns::Selection("level set"));
+                      "What follows the surface: a level set, corrected by markers that are "
+                      "carried along or not. Markers keep thin parts, edges and volume.",
+                      Patterns::Selection("marker level set|level set"));
+    prm.add_parameter("Markers per cell",
+                      markers_per_cell,
+                      "Mean number of markers in a cell that the surface cuts.",
+                      Patterns::Integer(1, 1000));
     prm.add_parameter("Volume correction",
                       volume_correction,
                       "Move the surface evenly along its normal so that the volume stays what it "
@@ -45,9 +52,34 @@ namespace treacle
                                 const double      reach,
                                 const double      volume) const
   {
+    if (has_markers())
+      correct_by_markers(state);
     redistance(state, reach);
-    if (!prm.volume_correction)
-      return;
+    if (has_markers())
+      correct_by_markers(state);
+    if (prm.volume_correction)
+      correct_volume(state, scene, volume);
+    if (has_markers())
+      remove_stray_markers(state, scene);
+    reseed(state, scene);
+  }
+
+  template <int dim>
+  void
+  SurfaceTracking<dim>::reseed(State<dim> &state, const Scene<dim> &scene) const
+  {
+    if (has_markers())
+      reseed_markers(state, scene, prm.markers_per_cell);
+    else
+      state.markers.clear();
+  }
+
+  template <int dim>
+  void
+  SurfaceTracking<dim>::correct_volume(State<dim>       &state,
+                                       const Scene<dim> &scene,
+                                       const double      volume) const
+  {
     // Newton's method: the derivative of the volume is the area. A lost drop
     // must not blow up the rest in one step, hence the bound.
     const double largest = 0.1 * state.mesh->finest_size();
@@ -63,6 +95,8 @@ namespace treacle
         state.phi.zero_out_ghost_values();
         state.phi.add(change);
         state.phi.update_ghost_values();
+        for (Marker<dim> &marker : state.markers)
+          marker.position -= change * marker.normal;
       }
   }
 

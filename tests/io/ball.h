@@ -42,6 +42,23 @@ namespace tests
     return leaf.size == 2 ? 3 : 1;
   }
 
+  /// Points on the ball, of all ranks.
+  template <int dim>
+  std::vector<Marker<dim>>
+  ball_markers()
+  {
+    std::vector<Marker<dim>> markers;
+    for (unsigned int k = 0; k < 101; ++k)
+      {
+        Tensor<1, dim> n;
+        for (unsigned int d = 0; d < dim; ++d)
+          n[d] = std::sin(k * (d + 1.) + d);
+        n /= n.norm();
+        markers.push_back({diagonal_point<dim>(0.5) + 0.3 * n, n});
+      }
+    return markers;
+  }
+
   /// The ball, turning and strained, on a mesh that is fine around its surface.
   template <int dim>
   State<dim>

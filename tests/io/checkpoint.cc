@@ -43,12 +43,38 @@ difference(const State<dim> &loaded, const MPI_Comm &comm)
   return Utilities::MPI::max(result, comm);
 }
 
+/// Do the ranks hold the markers that were saved, each the ones in its leaves?
+template <int dim>
+bool
+same_markers(const State<dim> &loaded, const MPI_Comm &comm)
+{
+  const Octree<dim>                              &octree  = loaded.mesh->octree();
+  std::vector<typename Marker<dim>::Numbers> numbers, wanted;
+  bool                                            is_here = true;
+  for (const Marker<dim> &marker : loaded.markers)
+    {
+      numbers.push_back(marker.numbers());
+      is_here = is_here && octree.leaf_containing(marker.position) < octree.n_owned_leaves();
+    }
+  std::vector<typename Marker<dim>::Numbers> all;
+  for (const auto &part : Utilities::MPI::all_gather(comm, numbers))
+    all.insert(all.end(), part.begin(), part.end());
+  for (const Marker<dim> &marker : tests::ball_markers<dim>())
+    wanted.push_back(marker.numbers());
+  std::sort(all.begin(), all.end());
+  std::sort(wanted.begin(), wanted.end());
+  return Utilities::MPI::min(is_here && all == wanted ? 1 : 0, comm) == 1;
+}
+
 template <int dim>
 void
 write(const MPI_Comm &comm)
 {
   State<dim> state = tests::ball_state<dim>(comm);
-  state.time       = 0.1;
+  if (Utilities::MPI::this_mpi_process(comm) == 0)
+    state.markers = tests::ball_markers<dim>();
+  state.markers = to_owners(state.mesh->octree(), state.markers);
+  state.time    = 0.1;
   state.step       = 6;
   checkpoint<dim>(comm).write(state, {3, {}});
   state.time = 0.2;
@@ -62,11 +88,13 @@ load(const MPI_Comm &comm)
 {
   const auto [state, progress] =
     checkpoint<dim>(comm).load(tests::ball_mesh<dim>(), tests::leaf_weight<dim>);
-  const double worst = difference<dim>(state, comm);
+  const double worst    = difference<dim>(state, comm);
+  const bool   are_same = same_markers<dim>(state, comm);
   tests::out() << dim << "D: time " << state.time << ", step " << state.step << ", frame "
                << progress.frame << ", scalar "
                << (progress.scalars.at("first volume") == 1. / 3 ? "ok" : "WRONG")
-               << ", state " << (worst == 0 ? "ok" : "WRONG") << std::endl;
+               << ", state " << (worst == 0 ? "ok" : "WRONG") << ", markers "
+               << (are_same ? "ok" : "WRONG") << std::endl;
 }
 
 template <int dim>

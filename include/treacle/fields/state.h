@@ -4,6 +4,7 @@
 #ifndef treacle_fields_state_h
 #define treacle_fields_state_h
 
+#include <treacle/fields/marker.h>
 #include <treacle/mesh/mesh.h>
 
 #include <memory>
@@ -56,6 +57,8 @@ namespace treacle
     Vector            pressure; ///< at dual centres, of the last projection (Pa)
 
     std::optional<CarriedMaterial> material; ///< if it is advected
+    /// Each on the rank that owns the leaf it lies in; none without marker level set.
+    std::vector<Marker<dim>> markers;
   };
 } // namespace treacle
 

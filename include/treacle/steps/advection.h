@@ -5,6 +5,7 @@
 #define treacle_steps_advection_h
 
 #include <treacle/fields/liquid_domain.h>
+#include <treacle/steps/smooth_level_set.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -39,6 +40,10 @@ namespace treacle
     std::vector<Point<dim>>
     move_surface(const std::vector<Point<dim>> &x, const double dt) const;
 
+    /// The markers after dt, still on the ranks they came from.
+    std::vector<Marker<dim>>
+    move_markers(const double dt) const;
+
     /// phi at points of the new time.
     std::vector<double>
     level_set(const std::vector<Point<dim>> &x, const double dt) const;
@@ -64,9 +69,8 @@ namespace treacle
     /// What moves the surface: the node velocity, but at walls and in solids that
     /// of the nodes beside them. With the wall's own velocity a film of air
     /// would remain under all that falls on it, for a P1 velocity vanishes there.
-    NodeVector<dim>       surface_velocity;
-    NodeVector<dim> phi_gradient;
-    Vector          phi_smoothness;
+    NodeVector<dim>     surface_velocity;
+    SmoothLevelSet<dim> phi;
   };
 } // namespace treacle
 

@@ -27,14 +27,16 @@ namespace treacle
                const Scene<dim>                       &scene);
 
   /// The mesh for the surface after dt: the old one while the surface stays well
-  /// inside its finest leaves, else a new one around it. Emitters that have not stopped are
-  /// surrounded by finest leaves as the surface is. Collective.
+  /// inside its finest leaves, else a new one around it. @p markers are those after dt.
+  /// Emitters that have not stopped are surrounded by finest leaves as the surface
+  /// is. Collective.
   template <int dim>
   std::shared_ptr<const Mesh<dim>>
-  mesh_for_next_surface(const State<dim>     &state,
-                        const Scene<dim>     &scene,
-                        const Advection<dim> &advection,
-                        const double          dt);
+  mesh_for_next_surface(const State<dim>               &state,
+                        const Scene<dim>               &scene,
+                        const Advection<dim>           &advection,
+                        const std::vector<Marker<dim>> &markers,
+                        const double                    dt);
 } // namespace treacle
 
 #endif

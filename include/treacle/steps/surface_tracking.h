@@ -10,15 +10,16 @@
 
 namespace treacle
 {
-  /// Mends phi after it was advected: distances, and the volume.
+  /// Mends phi after it was advected: its place by the markers, distances, and the volume.
   template <int dim>
   class SurfaceTracking
   {
   public:
     struct Parameters
     {
-      std::string method            = "level set";
-      bool        volume_correction = true;
+      std::string  method            = "marker level set";
+      unsigned int markers_per_cell  = 12;
+      bool         volume_correction = true;
 
       void
       add_parameters(ParameterHandler &prm);
@@ -28,12 +29,25 @@ namespace treacle
       : prm(parameters)
     {}
 
-    /// Distances within @p reach (m); with volume correction an offset of phi
-    /// that restores @p volume (m^dim).
+    /// @p state has phi and markers of the new time. Distances within @p reach (m);
+    /// with volume correction the surface is moved to restore @p volume (m^dim).
     void
     advance(State<dim> &state, const Scene<dim> &scene, const double reach, const double volume) const;
 
+    /// Markers, if there are to be any, on a surface that has too few.
+    void
+    reseed(State<dim> &state, const Scene<dim> &scene) const;
+
   private:
+    bool
+    has_markers() const
+    {
+      return prm.method == "marker level set";
+    }
+
+    void
+    correct_volume(State<dim> &state, const Scene<dim> &scene, const double volume) const;
+
     const Parameters prm;
   };
 } // namespace treacle

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_fields_near_markers_h
+#define treacle_fields_near_markers_h
+
+#include <treacle/fields/marker.h>
+
+namespace treacle
+{
+  /// A marker, and a value that belongs to it.
+  template <int dim>
+  struct NearMarker
+  {
+    Marker<dim> marker;
+    double      value;
+  };
+
+  /// Finds the markers within a reach of points in this rank's leaves. Refers to the
+  /// octree.
+  template <int dim>
+  class NearMarkers
+  {
+  public:
+    /// @p markers of this rank, with @p values; collective.
+    NearMarkers(const Octree<dim>              &octree,
+                const std::vector<Marker<dim>> &markers,
+                const std::vector<double>      &values,
+                const double                    reach);
+
+    /// Markers closer to @p x than the reach.
+    void
+    around(const Point<dim> &x, std::vector<const NearMarker<dim> *> &result) const;
+
+    const double reach; ///< m
+
+  private:
+    void
+    sort_into_cubes();
+
+    const Octree<dim>                                                    &octree;
+    std::vector<NearMarker<dim>>                                          all;
+    std::unordered_map<VertexKey, std::pair<unsigned int, unsigned int>> cubes; ///< begin, end
+  };
+} // namespace treacle
+
+#endif

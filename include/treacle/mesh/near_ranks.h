@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_mesh_near_ranks_h
+#define treacle_mesh_near_ranks_h
+
+#include <treacle/mesh/octree.h>
+
+#include <deal.II/base/bounding_box.h>
+
+namespace treacle
+{
+  /// Which other ranks have cells within a margin of a box (or a few more).
+  template <int dim>
+  class NearRanks
+  {
+  public:
+    /// Collective. @p margin in m.
+    NearRanks(const Octree<dim> &octree, const double margin);
+
+    /// Call @p visit with each other rank that may have a cell near @p around.
+    template <typename Visit>
+    void
+    for_each(const BoundingBox<dim> &around, const Visit &visit) const
+    {
+      for (unsigned int r = 0; r < boxes.size(); ++r)
+        if (r != rank && std::any_of(boxes[r].begin(), boxes[r].end(), [&](const auto &other) {
+              return other.get_neighbor_type(around) != NeighborType::not_neighbors;
+            }))
+          visit(r);
+    }
+
+    unsigned int
+    n_ranks() const
+    {
+      return boxes.size();
+    }
+
+  private:
+    const unsigned int                         rank;
+    std::vector<std::vector<BoundingBox<dim>>> boxes; ///< of each rank's leaves
+  };
+} // namespace treacle
+
+#endif
