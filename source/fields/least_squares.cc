@@ -9,8 +9,9 @@
 namespace treacle
 {
   template <int dim>
-  LeastSquares<dim>::LeastSquares(const LiquidDomain<dim> &domain)
+  LeastSquares<dim>::LeastSquares(const LiquidDomain<dim> &domain, const Weight weight)
     : domain(domain)
+    , weight(weight)
   {
     const Mesh<dim> &mesh     = domain.mesh;
     Vector           is_valid = mesh.zeros(mesh.nodes);
@@ -42,7 +43,8 @@ namespace treacle
             if (mesh.cell_nodes[c][i] == node || mesh.face_cells[f][0] != c ||
                 !domain.is_liquid_face(f))
               continue;
-            matrix += symmetrize(outer_product(mesh.face_normal[f], mesh.face_normal[f]));
+            const Tensor<1, dim> &n = mesh.face_normal[f];
+            matrix += weight_of(f) * symmetrize(outer_product(n, n));
             faces.push_back(f);
           }
       }
@@ -56,7 +58,7 @@ namespace treacle
       else
         valid = false;
     for (unsigned int k = first; k < faces.size(); ++k)
-      weights.push_back(inverse * mesh.face_normal[faces[k]]);
+      weights.push_back(weight_of(faces[k]) * inverse * mesh.face_normal[faces[k]]);
     return valid;
   }
 

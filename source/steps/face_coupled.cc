@@ -9,7 +9,7 @@ namespace treacle
   FaceCoupled<dim>::FaceCoupled(const NodeSystem<dim>                     &system,
                                 const typename NodeSystem<dim>::Stiffness &stiffness)
     : system(system)
-    , H(system.domain)
+    , H(system.domain, LeastSquares<dim>::Weight::mass)
     , mass(system.domain.mesh.faces)
     , assembled(system.assemble(NodeSystem<dim>::Mass::none, stiffness))
     , v(assembled.shift)

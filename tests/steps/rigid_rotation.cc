@@ -75,7 +75,8 @@ main(int argc, char **argv)
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const unsigned int level = argc > 1 ? std::stoi(argv[1]) : 3;
   on_1_2_3_ranks([&](const MPI_Comm &comm) {
-    for (const char *mapping : {"face fitted FLIP", "face fitted PIC", "face coupled", "node FLIP", "node PIC"})
+    for (const char *mapping :
+         {"face fitted FLIP", "face fitted PIC", "face coupled", "node FLIP", "node PIC"})
       {
         check<2>(comm, mapping, level);
         check<3>(comm, mapping, level);

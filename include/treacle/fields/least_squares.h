@@ -9,7 +9,7 @@
 namespace treacle
 {
   /// H: node velocity from the liquid faces around a node by least squares,
-  /// `(N^T N)^-1 N^T u` (the paper, section 4.3). Nodes where singular values below
+  /// `(N^T N)^-1 N^T u` (the paper, section 4.3), or weighted. Nodes where singular values below
   /// 0.1 of the largest have to be cut are invalid: they receive the mean of their
   /// valid neighbours. The weights are computed once for each surface, so that H is
   /// a linear map with an exact transpose. "Unknowns" are vectors with dim entries for
@@ -18,8 +18,15 @@ namespace treacle
   class LeastSquares
   {
   public:
+    /// What a face counts for in the sum of squares.
+    enum class Weight
+    {
+      one,
+      mass ///< M_f; then M_f^-1 H^T spreads a smooth force smoothly over the faces
+    };
+
     /// Collective.
-    explicit LeastSquares(const LiquidDomain<dim> &domain);
+    explicit LeastSquares(const LiquidDomain<dim> &domain, const Weight weight = Weight::one);
 
     /// v = H u at the active nodes, prescribed components set, ghosts updated.
     /// @p u must have up-to-date ghosts.
@@ -73,7 +80,14 @@ namespace treacle
     void
     drop_prescribed(Vector &x) const;
 
+    double
+    weight_of(const LocalIndex face) const
+    {
+      return weight == Weight::mass ? domain.face_mass[face] : 1;
+    }
+
     const LiquidDomain<dim>    &domain;
+    const Weight                weight;
     std::vector<LocalIndex>     active_nodes;
     std::vector<unsigned int>   start;   ///< of each active node in faces and weights
     std::vector<LocalIndex>     faces;

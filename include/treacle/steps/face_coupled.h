@@ -10,7 +10,9 @@
 namespace treacle
 {
   /// The viscous step in the velocity of the liquid faces, `A = M_f - dt H^T D H`
-  /// (the paper's implicit coupling), never formed. Face vectors live on the mesh's
+  /// (the paper's implicit coupling), never formed. H is weighted with M_f: without
+  /// weights neighbouring faces of a smooth flow are accelerated differently, and the
+  /// error does not fall with the mesh (doc/method.md). Face vectors live on the mesh's
   /// partitioner and are zero where a face is no unknown.
   template <int dim>
   class FaceCoupled
