@@ -26,7 +26,8 @@ check(const MPI_Comm &comm, const std::string &mapping, const unsigned int level
     (dim == 2 ? "0.503, 0.491\nset Velocity = 0.3 - (y - 0.491); 0.2 + (x - 0.503)" :
                 "0.503, 0.491, 0.512\nset Velocity = 0.3 - (y - 0.491) + 0.5 * (z - 0.512); "
                 "0.2 + (x - 0.503); -0.5 * (x - 0.503)") +
-    "\nend\nsubsection Viscosity\nset Mapping = " + mapping + "\nend\n" + tolerance("1e-13");
+    "\nend\nsubsection Viscosity\nset Mapping = " + mapping + "\nend\n" + tolerance("1e-13") +
+    "subsection Linear solvers\nsubsection Viscosity\nset Maximum iterations = 20000\nend\nend\n";
   typename Simulator<dim>::Parameters prm = parse<dim>(text, 0);
   const Scene<dim>                    scene(prm.scene);
   prm.mesh.lower_corner = scene.lower_corner();

@@ -32,8 +32,9 @@ namespace treacle
     Vector
     right_hand_side(const Vector &u) const;
 
-    /// Inverse of the diagonal of A without what D couples between the nodes of a face:
-    /// the exact one is at most dim times as large. 0 where a face is no unknown.
+    /// Inverse of the diagonal of A, without what D couples between the nodes of a face
+    /// (with it the diagonal is at most dim times as large) and without the means at
+    /// invalid nodes. 0 where a face is no unknown.
     Vector
     inverse_diagonal() const;
 
