@@ -3,8 +3,6 @@
 
 #include <treacle/fields/mapping.h>
 
-#include <deal.II/base/symmetric_tensor.h>
-
 namespace treacle
 {
   template <int dim>
@@ -39,22 +37,6 @@ namespace treacle
     return n > 0;
   }
 
-  namespace
-  {
-    /// Invalid nodes receive the mean of their valid neighbours.
-    template <int dim>
-    void
-    fill_invalid(const LiquidDomain<dim> &domain, const Vector &is_valid, NodeVector<dim> &v)
-    {
-      const Mesh<dim> &mesh = domain.mesh;
-      Tensor<1, dim>   mean;
-      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-        if (is_valid.local_element(node) == 0 && domain.is_active_node[node] &&
-            mean_of_neighbours(mesh, v, is_valid, node, mean))
-          v.set(node, mean);
-    }
-  } // namespace
-
   template <int dim>
   void
   set_prescribed(const LiquidDomain<dim> &domain, NodeVector<dim> &v)
@@ -66,47 +48,48 @@ namespace treacle
     v.update_ghost_values();
   }
 
+  namespace
+  {
+    template <int dim>
+    Tensor<1, dim>
+    cell_velocity(const LiquidDomain<dim> &domain, const Vector &u, const LocalIndex cell)
+    {
+      const Mesh<dim> &mesh = domain.mesh;
+      Tensor<2, dim>   matrix;
+      Tensor<1, dim>   rhs;
+      for (const LocalIndex f : mesh.cell_faces[cell])
+        {
+          const Tensor<1, dim> &n = mesh.face_normal[f];
+          matrix += outer_product(n, n);
+          rhs += (domain.is_liquid_face(f) ? u.local_element(f) : domain.solid_velocity[f]) * n;
+        }
+      return invert(matrix) * rhs; // any dim of the normals of a simplex are independent
+    }
+  } // namespace
+
   template <int dim>
   void
-  least_squares(const LiquidDomain<dim> &domain, const Vector &u, NodeVector<dim> &v)
+  two_step(const LiquidDomain<dim> &domain, const Vector &u, NodeVector<dim> &v)
   {
-    const Mesh<dim> &mesh = domain.mesh;
-    Vector           is_valid = mesh.zeros(mesh.nodes);
+    const Mesh<dim>            &mesh = domain.mesh;
+    std::vector<Tensor<1, dim>> velocity(mesh.cell_nodes.size());
+    for (LocalIndex c = 0; c < velocity.size(); ++c)
+      if (domain.is_active_cell[c])
+        velocity[c] = cell_velocity(domain, u, c);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
         if (!domain.is_active_node[node])
           continue;
-        SymmetricTensor<2, dim> matrix;
-        Tensor<1, dim>          rhs;
+        Tensor<1, dim> sum;
+        double         volume = 0;
         for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
-          {
-            const LocalIndex c = mesh.node_cells[k];
-            for (unsigned int i = 0; i <= dim; ++i)
-              {
-                const LocalIndex f = mesh.cell_faces[c][i];
-                if (mesh.cell_nodes[c][i] == node || mesh.face_cells[f][0] != c ||
-                    !domain.is_liquid_face(f))
-                  continue;
-                const Tensor<1, dim> &n = mesh.face_normal[f];
-                matrix += symmetrize(outer_product(n, n));
-                rhs += u.local_element(f) * n;
-              }
-          }
-        Tensor<1, dim> velocity;
-        const auto     modes = eigenvectors(matrix, SymmetricTensorEigenvectorMethod::jacobi);
-        bool           valid = modes[0].first > 0;
-        for (const auto &[lambda, mode] : modes)
-          // singular values are the roots of these
-          if (lambda > 0 && lambda >= 0.01 * modes[0].first)
-            velocity += (mode * rhs) / lambda * mode;
-          else
-            valid = false;
-        v.set(node, velocity);
-        is_valid.local_element(node) = valid;
+          if (const LocalIndex c = mesh.node_cells[k]; domain.is_active_cell[c])
+            {
+              sum += mesh.cell_volume[c] * velocity[c];
+              volume += mesh.cell_volume[c];
+            }
+        v.set(node, sum / volume);
       }
-    v.update_ghost_values();
-    is_valid.update_ghost_values();
-    fill_invalid(domain, is_valid, v);
     set_prescribed(domain, v);
   }
 
@@ -118,7 +101,7 @@ namespace treacle
                                    const LocalIndex,                                            \
                                    Tensor<1, dim> &);                                           \
   template void set_prescribed(const LiquidDomain<dim> &, NodeVector<dim> &);                   \
-  template void least_squares(const LiquidDomain<dim> &, const Vector &, NodeVector<dim> &);
+  template void two_step(const LiquidDomain<dim> &, const Vector &, NodeVector<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

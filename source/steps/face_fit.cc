@@ -9,16 +9,16 @@ namespace treacle
   FaceFit<dim>::FaceFit(const Parameters &parameters, const LiquidDomain<dim> &domain)
     : system(domain)
     , domain(domain)
-    , strain_coefficient(domain.mesh.cell_nodes.size())
   {
-    for (LocalIndex c = 0; c < strain_coefficient.size(); ++c)
-      strain_coefficient[c] = 1e-2 * domain.mesh.cell_size[c] * domain.mesh.cell_size[c] *
-                              domain.density[c] * domain.mesh.cell_volume[c];
-    assembled = system.assemble(NodeSystem<dim>::Mass::faces, strain_coefficient);
+    stiffness.strain.resize(domain.mesh.cell_nodes.size());
+    for (LocalIndex c = 0; c < stiffness.strain.size(); ++c)
+      stiffness.strain[c] = 1e-2 * domain.mesh.cell_size[c] * domain.mesh.cell_size[c] *
+                            domain.density[c] * domain.mesh.cell_volume[c];
+    assembled = system.assemble(NodeSystem<dim>::Mass::faces, stiffness);
     solver = std::make_unique<LinearSolver>(parameters.solver,
                                             "Face fit",
                                             *assembled.matrix,
-                                            system.rigid_motions());
+                                            system.stress_free_motions(stiffness));
   }
 
   template <int dim>

@@ -14,14 +14,17 @@
 namespace treacle
 {
   void
-  LinearSolver::Parameters::add_parameters(ParameterHandler &prm, const std::string &name)
+  LinearSolver::Parameters::add_parameters(ParameterHandler  &prm,
+                                           const std::string &name,
+                                           const std::string &remark)
   {
     prm.enter_subsection("Linear solvers");
     prm.enter_subsection(name);
     prm.add_parameter("Preconditioner",
                       preconditioner,
                       "Of the conjugate gradient method: algebraic multigrid, incomplete "
-                      "Cholesky factorization, diagonal, none.",
+                      "Cholesky factorization, diagonal, none." +
+                        remark,
                       Patterns::Selection("amg|incomplete cholesky|jacobi|none"));
     prm.add_parameter("Relative tolerance",
                       relative_tolerance,
@@ -37,7 +40,7 @@ namespace treacle
 
   namespace
   {
-    std::unique_ptr<TrilinosWrappers::PreconditionBase>
+    std::shared_ptr<TrilinosWrappers::PreconditionBase>
     make_amg(const TrilinosWrappers::SparseMatrix &matrix, NearNullSpace &null_space)
     {
       Teuchos::ParameterList list;
@@ -63,7 +66,7 @@ namespace treacle
           list.set("null space: vectors",
                    null_space.vectors.empty() ? &nothing : null_space.vectors.data());
         }
-      auto amg = std::make_unique<TrilinosWrappers::PreconditionAMG>();
+      auto amg = std::make_shared<TrilinosWrappers::PreconditionAMG>();
       amg->initialize(matrix, list);
       return amg;
     }
@@ -75,38 +78,56 @@ namespace treacle
                              const NearNullSpace                  &null_space)
     : prm(parameters)
     , name(name)
-    , matrix(matrix)
     , null_space(null_space)
+    , matrix([&matrix](Vector &y, const Vector &x) { matrix.vmult(y, x); })
   {
     if (matrix.m() == 0)
       return;
+    const auto use = [&](const auto p) {
+      preconditioner = [p](Vector &z, const Vector &r) { p->vmult(z, r); };
+    };
+    const auto make = [&](const auto p) {
+      p->initialize(matrix);
+      use(p);
+    };
     if (prm.preconditioner == "amg")
-      preconditioner = make_amg(matrix, this->null_space);
+      use(make_amg(matrix, this->null_space));
     else if (prm.preconditioner == "incomplete cholesky")
-      {
-        auto ic = std::make_unique<TrilinosWrappers::PreconditionIC>();
-        ic->initialize(matrix);
-        preconditioner = std::move(ic);
-      }
+      make(std::make_shared<TrilinosWrappers::PreconditionIC>());
     else if (prm.preconditioner == "jacobi")
-      {
-        auto jacobi = std::make_unique<TrilinosWrappers::PreconditionJacobi>();
-        jacobi->initialize(matrix);
-        preconditioner = std::move(jacobi);
-      }
+      make(std::make_shared<TrilinosWrappers::PreconditionJacobi>());
     else
-      {
-        auto identity = std::make_unique<TrilinosWrappers::PreconditionIdentity>();
-        identity->initialize(matrix);
-        preconditioner = std::move(identity);
-      }
+      make(std::make_shared<TrilinosWrappers::PreconditionIdentity>());
   }
+
+  LinearSolver::LinearSolver(const Parameters  &parameters,
+                             const std::string &name,
+                             const Operator    &matrix,
+                             const Operator    &preconditioner)
+    : prm(parameters)
+    , name(name)
+    , matrix(matrix)
+    , preconditioner(preconditioner)
+  {}
+
+  namespace
+  {
+    /// As SolverCG wants it.
+    struct Multiplies
+    {
+      const LinearSolver::Operator &apply;
+
+      void
+      vmult(Vector &y, const Vector &x) const
+      {
+        apply(y, x);
+      }
+    };
+  } // namespace
 
   unsigned int
   LinearSolver::solve(Vector &x, const Vector &b) const
   {
-    if (matrix.m() == 0)
-      return 0;
     const double norm = b.l2_norm();
     if (norm == 0)
       {
@@ -122,7 +143,7 @@ namespace treacle
     try
       {
         SolverCG<Vector> solver(control);
-        solver.solve(matrix, x, b, *preconditioner);
+        solver.solve(Multiplies{matrix}, x, b, Multiplies{preconditioner});
       }
     catch (const SolverControl::NoConvergence &failure)
       {

@@ -33,7 +33,7 @@ namespace treacle
   template <int dim>
   void
   NodeSystem<dim>::assemble_node(const Mass                   mass,
-                                 const std::vector<double>   &strain_coefficient,
+                                 const Stiffness             &stiffness,
                                  const LocalIndex             node,
                                  std::vector<LocalIndex>     &columns,
                                  std::vector<Tensor<2, dim>> &blocks) const
@@ -60,15 +60,17 @@ namespace treacle
         const auto &nodes = mesh.cell_nodes[c];
         const auto &g     = mesh.cell_gradients[c];
         const auto  i     = std::find(nodes.begin(), nodes.end(), node) - nodes.begin();
+        const double strain   = stiffness.strain.empty() ? 0 : stiffness.strain[c];
+        const double gradient = stiffness.gradient.empty() ? 0 : stiffness.gradient[c];
         for (unsigned int j = 0; j <= dim; ++j)
           {
             Tensor<2, dim> &block = block_of(nodes[j]);
-            const double    gg    = strain_coefficient[c] * (g[i] * g[j]);
+            const double    gg    = (strain + gradient) * (g[i] * g[j]);
             for (unsigned int a = 0; a < dim; ++a)
               {
                 block[a][a] += gg;
                 for (unsigned int b = 0; b < dim; ++b)
-                  block[a][b] += strain_coefficient[c] * g[j][a] * g[i][b];
+                  block[a][b] += strain * g[j][a] * g[i][b];
               }
           }
       }
@@ -76,7 +78,7 @@ namespace treacle
     if (mass == Mass::nodes)
       for (unsigned int d = 0; d < dim; ++d)
         blocks[0][d][d] += domain.node_mass[node];
-    else
+    else if (mass == Mass::faces)
       for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
         for (const LocalIndex f : mesh.cell_faces[mesh.node_cells[k]])
           {
@@ -95,7 +97,7 @@ namespace treacle
 
   template <int dim>
   typename NodeSystem<dim>::Assembled
-  NodeSystem<dim>::assemble(const Mass mass, const std::vector<double> &strain_coefficient) const
+  NodeSystem<dim>::assemble(const Mass mass, const Stiffness &stiffness) const
   {
     const Mesh<dim>            &mesh = domain.mesh;
     Assembled                   result;
@@ -106,6 +108,7 @@ namespace treacle
       std::make_unique<TrilinosWrappers::SparseMatrix>(rows, rows, mesh.communicator(), row_lengths);
     result.shift.reinit(rows, mesh.communicator());
 
+    const bool decoupled = mass != Mass::faces && stiffness.strain.empty();
     const auto is_constrained = [&](const LocalIndex node, const unsigned int d) {
       return (domain.constrained[node] >> d & 1) != 0;
     };
@@ -114,7 +117,7 @@ namespace treacle
     for (unsigned int i = 0; i < owned_nodes.size(); ++i)
       {
         const LocalIndex node = owned_nodes[i];
-        assemble_node(mass, strain_coefficient, node, columns, blocks);
+        assemble_node(mass, stiffness, node, columns, blocks);
         for (unsigned int a = 0; a < dim; ++a)
           {
             const GlobalIndex row = dim * number[node] + a;
@@ -123,7 +126,7 @@ namespace treacle
             indices.assign(1, row);
             values.assign(1, diagonal);
             for (unsigned int k = 0; k < columns.size() && !is_constrained(node, a); ++k)
-              for (unsigned int b = 0; b < dim; ++b)
+              for (unsigned int b = decoupled ? a : 0; b < (decoupled ? a + 1 : dim); ++b)
                 if (is_constrained(columns[k], b))
                   result.shift.local_element(dim * i + a) -=
                     blocks[k][a][b] * domain.prescribed[columns[k]][b];
@@ -197,11 +200,11 @@ namespace treacle
 
   template <int dim>
   NearNullSpace
-  NodeSystem<dim>::rigid_motions() const
+  NodeSystem<dim>::stress_free_motions(const Stiffness &stiffness) const
   {
     NearNullSpace space;
     space.n_components   = dim;
-    space.n_vectors      = dim == 2 ? 3 : 6;
+    space.n_vectors      = !stiffness.gradient.empty() ? dim : dim == 2 ? 3 : 6;
     const std::size_t n  = dim * owned_nodes.size();
     const auto       &box = domain.mesh.octree().parameters();
     const Point<dim>  origin = box.lower_corner + 0.5 * (box.upper_corner - box.lower_corner);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/fields/least_squares.h>
 #include <treacle/steps/extrapolation.h>
 #include <treacle/steps/reconstruction.h>
 
@@ -14,8 +15,9 @@ namespace treacle
     prm.add_parameter("Reconstruction",
                       method,
                       "Node velocity from face velocity: the fit that is exact for rigid motions, "
-                      "or least squares at each node.",
-                      Patterns::Selection("face fitted|least squares"));
+                      "least squares at each node, or least squares in each cell and means "
+                      "of these at the nodes.",
+                      Patterns::Selection("face fitted|least squares|two step"));
     prm.leave_subsection();
   }
 
@@ -25,8 +27,10 @@ namespace treacle
   {
     if (prm.method == "face fitted")
       fit.solve(state.u, state.v);
+    else if (prm.method == "two step")
+      two_step(fit.domain, state.u, state.v);
     else
-      least_squares(fit.domain, state.u, state.v);
+      LeastSquares<dim>(fit.domain).apply(state.u, state.v);
     extrapolate(state, fit.domain, reach);
   }
 

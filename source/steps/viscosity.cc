@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/steps/face_coupled.h>
 #include <treacle/steps/viscosity.h>
 
 namespace treacle
@@ -14,11 +15,12 @@ namespace treacle
     solve(State<dim>                                &state,
           const NodeSystem<dim>                     &system,
           const typename NodeSystem<dim>::Assembled &assembled,
+          const NearNullSpace                       &null_space,
           const std::vector<Tensor<1, dim>>         &momentum,
           const bool                                 flip,
           const LinearSolver::Parameters            &prm)
     {
-      const LinearSolver solver(prm, "Viscosity", *assembled.matrix, system.rigid_motions());
+      const LinearSolver solver(prm, "Viscosity", *assembled.matrix, null_space);
       Vector             x          = system.unknowns(state.v);
       const unsigned int iterations = solver.solve(x, system.right_hand_side(momentum, assembled));
       const NodeVector<dim> old     = state.v;
@@ -48,35 +50,49 @@ namespace treacle
       mapping,
       "How viscosity is carried between face and node velocity: by a fit of the "
       "node velocity to the faces, exact for rigid motions, or by least squares at "
-      "each node; the faces receive the change (FLIP) or the value (PIC).",
-      Patterns::Selection("face fitted FLIP|face fitted PIC|node FLIP|node PIC"));
+      "each node; the faces receive the change (FLIP) or the value (PIC). Face "
+      "coupled: the least squares are part of the implicit system, whose unknowns "
+      "are the faces.",
+      Patterns::Selection(
+        "face coupled|face fitted FLIP|face fitted PIC|node FLIP|node PIC"));
+    prm.add_parameter("Stress model",
+                      stress_model,
+                      "Full: the stress mu (grad u + grad u^T). Laplacian: div(mu grad u) for "
+                      "each component, which damps rotation where the liquid is free; for comparison.",
+                      Patterns::Selection("full|laplacian"));
     prm.add_parameter("Element weighting",
                       element_weighting,
                       "Whether the stiffness of a cell that the surface cuts is scaled by its "
                       "liquid fraction or kept whole.",
                       Patterns::Selection("liquid fraction|full"));
     prm.leave_subsection();
-    solver.add_parameters(prm, "Viscosity");
+    solver.add_parameters(prm,
+                          "Viscosity",
+                          " The mapping face coupled has no matrix to make the first two from: "
+                          "they stand for the diagonal there.");
   }
 
   template <int dim>
   unsigned int
   Viscosity<dim>::advance(State<dim> &state, const FaceFit<dim> &fit, const double dt) const
   {
-    return prm.mapping.rfind("node", 0) == 0 ? advance_nodes(state, fit, dt) :
-                                               advance_face_fitted(state, fit, dt);
+    return prm.mapping == "face coupled"        ? advance_face_coupled(state, fit, dt) :
+           prm.mapping.rfind("node", 0) == 0 ? advance_nodes(state, fit, dt) :
+                                                advance_face_fitted(state, fit, dt);
   }
 
   template <int dim>
-  std::vector<double>
-  Viscosity<dim>::strain_coefficient(const LiquidDomain<dim> &domain, const double dt) const
+  typename NodeSystem<dim>::Stiffness
+  Viscosity<dim>::stiffness(const LiquidDomain<dim> &domain, const double dt) const
   {
-    const bool          full = prm.element_weighting == "full";
-    std::vector<double> result(domain.viscosity.size());
-    for (LocalIndex c = 0; c < result.size(); ++c)
+    const bool                          whole = prm.element_weighting == "full";
+    typename NodeSystem<dim>::Stiffness result;
+    std::vector<double> &weight = prm.stress_model == "full" ? result.strain : result.gradient;
+    weight.resize(domain.viscosity.size());
+    for (LocalIndex c = 0; c < weight.size(); ++c)
       if (domain.liquid_volume[c] > 0)
-        result[c] = dt * domain.viscosity[c] *
-                    (full ? domain.mesh.cell_volume[c] : domain.liquid_volume[c]);
+        weight[c] = dt * domain.viscosity[c] *
+                    (whole ? domain.mesh.cell_volume[c] : domain.liquid_volume[c]);
     return result;
   }
 
@@ -91,12 +107,14 @@ namespace treacle
     if (flip)
       fit.solve(state.u, state.v);
 
-    std::vector<double> coefficient = strain_coefficient(domain, dt);
-    for (LocalIndex c = 0; c < coefficient.size(); ++c)
-      coefficient[c] += fit.regularization()[c];
+    auto stiffness = this->stiffness(domain, dt);
+    stiffness.strain.resize(domain.viscosity.size());
+    for (LocalIndex c = 0; c < stiffness.strain.size(); ++c)
+      stiffness.strain[c] += fit.regularization()[c];
     return solve(state,
                  fit.system,
-                 fit.system.assemble(NodeSystem<dim>::Mass::faces, coefficient),
+                 fit.system.assemble(NodeSystem<dim>::Mass::faces, stiffness),
+                 fit.system.stress_free_motions(stiffness),
                  fit.system.face_momentum(state.u),
                  flip,
                  prm.solver);
@@ -107,17 +125,57 @@ namespace treacle
   Viscosity<dim>::advance_nodes(State<dim> &state, const FaceFit<dim> &fit, const double dt) const
   {
     const LiquidDomain<dim> &domain = fit.domain;
-    least_squares(domain, state.u, state.v);
+    LeastSquares<dim>(domain).apply(state.u, state.v);
     std::vector<Tensor<1, dim>> momentum(domain.node_mass.size());
     for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
       momentum[node] = domain.node_mass[node] * state.v.value(node);
 
+    const auto stiffness = this->stiffness(domain, dt);
     return solve(state,
                  fit.system,
-                 fit.system.assemble(NodeSystem<dim>::Mass::nodes, strain_coefficient(domain, dt)),
+                 fit.system.assemble(NodeSystem<dim>::Mass::nodes, stiffness),
+                 fit.system.stress_free_motions(stiffness),
                  momentum,
                  prm.mapping == "node FLIP",
                  prm.solver);
+  }
+
+  template <int dim>
+  unsigned int
+  Viscosity<dim>::advance_face_coupled(State<dim>         &state,
+                                       const FaceFit<dim> &fit,
+                                       const double        dt) const
+  {
+    const LiquidDomain<dim> &domain    = fit.domain;
+    const auto               stiffness = this->stiffness(domain, dt);
+    const FaceCoupled<dim>   face_coupled(fit.system, stiffness);
+    const auto               matrix = [&](Vector &y, const Vector &x) { face_coupled.vmult(y, x); };
+
+    LinearSolver::Parameters parameters = prm.solver;
+    LinearSolver::Operator   preconditioner = [](Vector &z, const Vector &r) { z = r; };
+    if (parameters.preconditioner != "none")
+      {
+        parameters.preconditioner = "jacobi";
+        preconditioner = [d = face_coupled.inverse_diagonal()](Vector &z, const Vector &r) {
+          z = r;
+          z.scale(d);
+        };
+      }
+
+    Vector u = domain.mesh.zeros(domain.mesh.faces);
+    for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
+      if (domain.is_liquid_face(f))
+        u.local_element(f) = state.u.local_element(f);
+    const Vector       b = face_coupled.right_hand_side(u);
+    const LinearSolver solver(parameters, "Viscosity", matrix, preconditioner);
+    const unsigned int iterations = solver.solve(u, b);
+
+    for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
+      if (domain.is_liquid_face(f))
+        state.u.local_element(f) = u.local_element(f);
+    state.u.update_ghost_values();
+    face_coupled.H.apply(state.u, state.v);
+    return iterations;
   }
 
   template class Viscosity<2>;

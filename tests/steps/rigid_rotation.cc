@@ -26,7 +26,8 @@ check(const MPI_Comm &comm, const std::string &mapping, const unsigned int level
     (dim == 2 ? "0.503, 0.491\nset Velocity = 0.3 - (y - 0.491); 0.2 + (x - 0.503)" :
                 "0.503, 0.491, 0.512\nset Velocity = 0.3 - (y - 0.491) + 0.5 * (z - 0.512); "
                 "0.2 + (x - 0.503); -0.5 * (x - 0.503)") +
-    "\nend\nsubsection Viscosity\nset Mapping = " + mapping + "\nend\n" + tolerance("1e-13");
+    "\nend\nsubsection Viscosity\nset Mapping = " + mapping + "\nend\n" + tolerance("1e-13") +
+    "subsection Linear solvers\nsubsection Viscosity\nset Maximum iterations = 20000\nend\nend\n";
   typename Simulator<dim>::Parameters prm = parse<dim>(text, 0);
   const Scene<dim>                    scene(prm.scene);
   prm.mesh.lower_corner = scene.lower_corner();
@@ -75,7 +76,8 @@ main(int argc, char **argv)
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const unsigned int level = argc > 1 ? std::stoi(argv[1]) : 3;
   on_1_2_3_ranks([&](const MPI_Comm &comm) {
-    for (const char *mapping : {"face fitted FLIP", "face fitted PIC", "node FLIP", "node PIC"})
+    for (const char *mapping :
+         {"face fitted FLIP", "face fitted PIC", "face coupled", "node FLIP", "node PIC"})
       {
         check<2>(comm, mapping, level);
         check<3>(comm, mapping, level);

@@ -29,14 +29,13 @@ namespace treacle
   void
   set_prescribed(const LiquidDomain<dim> &domain, NodeVector<dim> &v);
 
-  /// H: node velocity from the liquid faces around a node by least squares,
-  /// `(N^T N)^-1 N^T u` (the paper, section 4.3). Nodes where singular values below
-  /// 0.1 of the largest would have to be cut are invalid: they receive the mean of
-  /// their valid neighbours. Prescribed components are set. @p u must have up-to-date
-  /// ghosts.
+  /// Node velocity in two steps (Klingner et al. 2006): that of each active cell
+  /// by least squares from all its faces, walls and solids included, then the
+  /// mean over the cells around a node, weighted by their volume. Prescribed components are
+  /// set. @p u must have up-to-date ghosts.
   template <int dim>
   void
-  least_squares(const LiquidDomain<dim> &domain, const Vector &u, NodeVector<dim> &v);
+  two_step(const LiquidDomain<dim> &domain, const Vector &u, NodeVector<dim> &v);
 } // namespace treacle
 
 #endif

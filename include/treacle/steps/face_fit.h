@@ -35,18 +35,18 @@ namespace treacle
     unsigned int
     solve(const Vector &u, NodeVector<dim> &v) const;
 
-    /// Weight of S in each cell, to be added to any other strain coefficient.
+    /// Weight of S in each cell, to be added to any other strain term.
     const std::vector<double> &
     regularization() const
     {
-      return strain_coefficient;
+      return stiffness.strain;
     }
 
     const NodeSystem<dim>    system;
     const LiquidDomain<dim> &domain;
 
   private:
-    std::vector<double>                 strain_coefficient;
+    typename NodeSystem<dim>::Stiffness stiffness;
     typename NodeSystem<dim>::Assembled assembled;
     std::unique_ptr<LinearSolver>       solver;
   };

@@ -10,6 +10,7 @@
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -24,19 +25,25 @@ namespace treacle
     std::vector<double> vectors;
   };
 
-  /// Conjugate gradients on a symmetric positive definite matrix.
+  /// Conjugate gradients on a symmetric positive definite matrix or operator.
   class LinearSolver
   {
   public:
+    /// Sets its first argument to a linear map of the second.
+    using Operator = std::function<void(Vector &, const Vector &)>;
+
     struct Parameters
     {
       std::string  preconditioner     = "amg";
       double       relative_tolerance = 1e-6;
       unsigned int maximum_iterations = 1000;
 
-      /// Subsection Linear solvers / @p name.
+      /// Subsection Linear solvers / @p name. A remark goes into the documentation
+      /// of the preconditioner.
       void
-      add_parameters(ParameterHandler &prm, const std::string &name);
+      add_parameters(ParameterHandler  &prm,
+                     const std::string &name,
+                     const std::string &remark = "");
     };
 
     /// Sets up the preconditioner; the matrix must outlive this object.
@@ -45,17 +52,23 @@ namespace treacle
                  const TrilinosWrappers::SparseMatrix &matrix,
                  const NearNullSpace                  &null_space = NearNullSpace());
 
+    /// For an operator that is no matrix, with its preconditioner.
+    LinearSolver(const Parameters  &parameters,
+                 const std::string &name,
+                 const Operator    &matrix,
+                 const Operator    &preconditioner);
+
     /// Improve x until |b - A x| <= tolerance |b|. Returns the number of
     /// iterations. Throws a UserError where it does not get there.
     unsigned int
     solve(Vector &x, const Vector &b) const;
 
   private:
-    const Parameters                                  prm;
-    const std::string                                 name;
-    const TrilinosWrappers::SparseMatrix             &matrix;
-    NearNullSpace                                     null_space;
-    std::unique_ptr<TrilinosWrappers::PreconditionBase> preconditioner;
+    const Parameters  prm;
+    const std::string name;
+    NearNullSpace     null_space;
+    Operator          matrix;
+    Operator          preconditioner;
   };
 } // namespace treacle
 

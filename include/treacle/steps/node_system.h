@@ -22,12 +22,22 @@ namespace treacle
 
     NodeSystem(const NodeSystem &) = delete;
 
-    /// Which mass a matrix holds: the lumped one of the nodes (M), or that of
+    /// Which mass a matrix holds: none, the lumped one of the nodes (M), or that of
     /// the faces seen from the nodes (P^T M_f P).
     enum class Mass
     {
+      none,
       nodes,
       faces
+    };
+
+    /// Weights of the two terms in each cell; an empty one is zero. For -dt D they
+    /// are dt mu V: of the strain for the full stress, of the gradient for
+    /// div(mu grad v).
+    struct Stiffness
+    {
+      std::vector<double> strain;   ///< of 2 e:e'
+      std::vector<double> gradient; ///< of grad v : grad v'
     };
 
     struct Assembled
@@ -37,10 +47,10 @@ namespace treacle
       Vector shift;
     };
 
-    /// `mass + sum_cells strain_coefficient(c) * (2 e:e)'`: the second term is
-    /// `-dt D` for the coefficient dt mu V.
+    /// The sum of a mass and a stiffness. Without strain and P^T M_f P the
+    /// components are decoupled, and so are they in the matrix.
     Assembled
-    assemble(const Mass mass, const std::vector<double> &strain_coefficient) const;
+    assemble(const Mass mass, const Stiffness &stiffness) const;
 
     /// The unknowns of v, prescribed components set.
     Vector
@@ -59,16 +69,17 @@ namespace treacle
     std::vector<Tensor<1, dim>>
     face_momentum(const Vector &u) const;
 
-    /// Rigid motions of the nodes, zero at prescribed components.
+    /// Motions without stress, zero at prescribed components: the rigid ones, or
+    /// translations alone where there is no strain term.
     NearNullSpace
-    rigid_motions() const;
+    stress_free_motions(const Stiffness &stiffness) const;
 
     const LiquidDomain<dim> &domain;
 
   private:
     void
     assemble_node(const Mass                   mass,
-                  const std::vector<double>   &strain_coefficient,
+                  const Stiffness             &stiffness,
                   const LocalIndex             node,
                   std::vector<LocalIndex>     &columns,
                   std::vector<Tensor<2, dim>> &blocks) const;

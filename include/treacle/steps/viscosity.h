@@ -10,7 +10,7 @@ namespace treacle
 {
   /// The implicit viscous step, a nodal finite volume method (Batty & Houston
   /// 2011, section 4): `(M - dt D) v = M v_old` at the nodes, carried between
-  /// face and node velocity by a mapping.
+  /// face and node velocity by a mapping, or the same in the velocity of the faces.
   template <int dim>
   class Viscosity
   {
@@ -18,6 +18,7 @@ namespace treacle
     struct Parameters
     {
       std::string              mapping           = "face fitted FLIP";
+      std::string              stress_model      = "full";
       std::string              element_weighting = "liquid fraction";
       LinearSolver::Parameters solver;
 
@@ -41,9 +42,12 @@ namespace treacle
     unsigned int
     advance_nodes(State<dim> &state, const FaceFit<dim> &fit, const double dt) const;
 
-    /// dt mu V of each cell.
-    std::vector<double>
-    strain_coefficient(const LiquidDomain<dim> &domain, const double dt) const;
+    unsigned int
+    advance_face_coupled(State<dim> &state, const FaceFit<dim> &fit, const double dt) const;
+
+    /// dt mu V of each cell, in the term that the stress model has.
+    typename NodeSystem<dim>::Stiffness
+    stiffness(const LiquidDomain<dim> &domain, const double dt) const;
 
     const Parameters prm;
   };
