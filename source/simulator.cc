@@ -25,6 +25,7 @@ namespace treacle
                           "Where everything that a run writes goes.");
     time_step.add_parameters(handler);
     scene.add_parameters(handler, n_liquids, n_solids);
+    imported.add_parameters(handler);
     mesh.add_parameters(handler);
     tracking.add_parameters(handler);
     reconstruction.add_parameters(handler);
@@ -72,7 +73,13 @@ namespace treacle
     , checkpoint(comm, prm.checkpoint, prm.output_directory)
     , timing(comm)
   {
-    with_box(prm.mesh, scene).check();
+    if (!prm.imported.is_imported())
+      with_box(prm.mesh, scene).check();
+    else
+      {
+        imported = std::make_shared<const Mesh<dim>>(comm, prm.imported.file);
+        check_walls();
+      }
   }
 
   template <int dim>
@@ -85,8 +92,7 @@ namespace treacle
       start();
     log->line("Treacle " TREACLE_VERSION ", " + std::to_string(dim) + "D, " +
               std::to_string(Utilities::MPI::n_mpi_processes(comm)) + " ranks, " +
-              std::to_string(state->mesh->cells->size()) + " cells, leaf edge " +
-              Utilities::to_string(state->mesh->finest_size()) + " m");
+              std::to_string(state->mesh->cells->size()) + " cells, " + description_of_mesh());
 
     while (frame < time_step.n_frames())
       {
@@ -106,10 +112,10 @@ namespace treacle
   void
   Simulator<dim>::start()
   {
-    const auto parameters = with_box(prm.mesh, scene);
-    state = std::make_unique<State<dim>>(initial_mesh<dim>(comm, parameters, scene));
+    state = std::make_unique<State<dim>>(
+      imported ? imported : initial_mesh<dim>(comm, with_box(prm.mesh, scene), scene));
     const Mesh<dim> &mesh = *state->mesh;
-    reach                 = (prm.time_step.cfl + 3) * mesh.finest_size();
+    reach                 = time_step.reach(mesh);
     std::string error;
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
@@ -149,14 +155,16 @@ namespace treacle
   void
   Simulator<dim>::resume()
   {
-    auto [loaded, progress] = checkpoint.load(with_box(prm.mesh, scene), &leaf_weight<dim>);
+    auto [loaded, progress] = imported ?
+                                checkpoint.load(imported) :
+                                checkpoint.load(with_box(prm.mesh, scene), &leaf_weight<dim>);
     state                   = std::make_unique<State<dim>>(std::move(loaded));
     frame                   = progress.frame;
     require(std::abs(time_step.frame_time(frame) - state->time) <= 1e-9 * state->time,
             "Frame interval: it must be the one of the run that is resumed, for frame " +
               std::to_string(frame) + " is at t = " + Utilities::to_string(state->time) + " s.");
     volume                  = progress.scalars.at("volume");
-    reach                   = (prm.time_step.cfl + 3) * state->mesh->finest_size();
+    reach                   = time_step.reach(*state->mesh);
     domain = std::make_unique<LiquidDomain<dim>>(*state, scene, prm.projection.minimum_theta);
     log        = std::make_unique<Log>(comm, prm.output_directory, true);
     statistics = std::make_unique<Statistics<dim>>(comm, prm.output_directory);
@@ -191,11 +199,45 @@ namespace treacle
             }
         const std::string liquid = "Liquid " + std::to_string(k + 1);
         require(Utilities::MPI::max(in_box ? 1 : 0, comm) == 1,
-                liquid + " lies outside the box, or is smaller than the cells: move it, change "
-                         "Domain/Lower corner and Upper corner, or raise Mesh/Surface level.");
+                liquid + (imported ? " lies outside the mesh, or is smaller than its cells: move "
+                                     "it, or change Mesh/File." :
+                                     " lies outside the box, or is smaller than the cells: move "
+                                     "it, change Domain/Lower corner and Upper corner, or raise "
+                                     "Mesh/Surface level."));
         require(Utilities::MPI::max(outside_solids ? 1 : 0, comm) == 1,
                 liquid + " lies inside a solid: move one of them.");
       }
+  }
+
+  template <int dim>
+  void
+  Simulator<dim>::check_walls() const
+  {
+    std::string error;
+    if (!scene.no_slip(Walls<dim>::oblique))
+      for (LocalIndex f = 0; f < imported->n_owned_faces(); ++f)
+        if (imported->face_side[f] == Walls<dim>::oblique)
+          {
+            error = "Domain/Wall condition: liquid slips along walls normal to an axis only, and "
+                    "the mesh \"" + prm.imported.file + "\" has others; write \"default: no slip; "
+                    "\" and the sides of its box that are free slip.";
+            break;
+          }
+    throw_first(comm, error);
+  }
+
+  template <int dim>
+  std::string
+  Simulator<dim>::description_of_mesh() const
+  {
+    const Mesh<dim> &mesh = *state->mesh;
+    if (!imported)
+      return "leaf edge " + Utilities::to_string(mesh.finest_size()) + " m";
+    char size[32];
+    std::snprintf(size, sizeof size, "%.4g", mesh.finest_size());
+    return "mesh " + prm.imported.file + " of mean size " + size + " m, " +
+           std::to_string(mesh.n_clamped_dual_lengths) + " of " +
+           std::to_string(mesh.faces->size()) + " dual lengths clamped";
   }
 
   template <int dim>

@@ -5,6 +5,7 @@
 #include <treacle/base/files.h>
 #include <treacle/io/checkpoint.h>
 #include <treacle/io/checkpoint_info.h>
+#include <treacle/io/row_order.h>
 #include <treacle/io/table_file.h>
 
 #include <filesystem>
@@ -68,6 +69,20 @@ namespace treacle
       return out.str();
     }
 
+    template <int dim>
+    std::vector<int>
+    numbers_of_leaves(const Octree<dim> &octree)
+    {
+      std::vector<int> result;
+      for (unsigned int l = 0; l < octree.n_owned_leaves(); ++l)
+        {
+          const Leaf<dim> &leaf = octree.leaves()[l];
+          result.insert(result.end(), leaf.origin.begin(), leaf.origin.end());
+          result.push_back(leaf.level);
+        }
+      return result;
+    }
+
     /// Level set and velocity at the nodes of a cell, face velocity, pressure.
     template <int dim>
     constexpr unsigned int row_size = (dim + 1) * (dim + 2) + 1;
@@ -99,15 +114,19 @@ namespace treacle
                const typename Checkpoint<dim>::Progress &progress)
     {
       const Mesh<dim> &mesh = *state.mesh;
-      const auto      &prm  = mesh.octree().parameters();
+      const auto      &box  = mesh.box().get_boundary_points();
       out << std::setprecision(17) << "Format = 1\nDimension = " << dim
           << "\nRanks = " << Utilities::MPI::n_mpi_processes(mesh.communicator())
           << "\nTime = " << state.time << "\nStep = " << state.step
           << "\nFrame = " << progress.frame << "\nCells = " << mesh.cells->size()
-          << "\nLower corner = " << to_text(prm.lower_corner)
-          << "\nUpper corner = " << to_text(prm.upper_corner)
-          << "\nRoot cells = " << prm.root_cells
-          << "\nSurface level = " << prm.surface_level << '\n';
+          << "\nMesh type = " << (mesh.lattice() ? "lattice" : "file")
+          << "\nLower corner = " << to_text(box.first)
+          << "\nUpper corner = " << to_text(box.second) << '\n';
+      if (mesh.lattice())
+        out << "Root cells = " << mesh.octree().parameters().root_cells
+            << "\nSurface level = " << mesh.octree().parameters().surface_level << '\n';
+      else
+        out << "Nodes = " << mesh.nodes->size() << '\n';
       for (const auto &[name, value] : progress.scalars)
         out << scalar_prefix << name << " = " << value << '\n';
     }
@@ -123,22 +142,18 @@ namespace treacle
       discard(fresh);
     create_directory(comm, fresh);
 
-    const Octree<dim> &octree = state.mesh->octree();
-    std::vector<int>   leaves;
-    for (unsigned int l = 0; l < octree.n_owned_leaves(); ++l)
-      {
-        const Leaf<dim> &leaf = octree.leaves()[l];
-        leaves.insert(leaves.end(), leaf.origin.begin(), leaf.origin.end());
-        leaves.push_back(leaf.level);
-      }
-    TableFile<int>::write(comm, fresh + "/leaves", leaves);
+    const Mesh<dim> &mesh = *state.mesh;
+    if (mesh.lattice())
+      TableFile<int>::write(comm, fresh + "/leaves", numbers_of_leaves(mesh.octree()));
 
     std::vector<double> rows;
-    rows.reserve(row_size<dim> * state.mesh->n_owned_cells());
+    rows.reserve(row_size<dim> * mesh.n_owned_cells());
     for_each_number<dim>(state,
                          [&](const Vector &v, const LocalIndex i, const LocalIndex) {
                            rows.push_back(v.local_element(i));
                          });
+    if (!mesh.lattice()) // there owned cells stand in the order of their numbers
+      rows = RowOrder<dim>(mesh, row_size<dim>).shares(rows);
     TableFile<double>::write(comm, fresh + "/cells", rows);
     replace_file(comm, info_file(fresh), [&](std::ostream &out) {
       write_info<dim>(out, state, progress);
@@ -202,10 +217,8 @@ namespace treacle
   }
 
   template <int dim>
-  std::pair<State<dim>, typename Checkpoint<dim>::Progress>
-  Checkpoint<dim>::load(
-    const typename Octree<dim>::Parameters               &parameters,
-    const std::function<unsigned int(const Leaf<dim> &)> &weight) const
+  std::pair<std::string, CheckpointInfo>
+  Checkpoint<dim>::find(const std::string &mesh_type) const
   {
     // the newest that is complete; between two renames it is not at its place
     std::string directory, text;
@@ -225,6 +238,17 @@ namespace treacle
     const CheckpointInfo info(text, info_file(directory));
     info.require_same("Format", "the format", "1");
     info.require_same("Dimension", "Dimension", std::to_string(dim));
+    info.require_same("Mesh type", "Mesh/Type", mesh_type);
+    return {directory, info};
+  }
+
+  template <int dim>
+  std::pair<State<dim>, typename Checkpoint<dim>::Progress>
+  Checkpoint<dim>::load(
+    const typename Octree<dim>::Parameters               &parameters,
+    const std::function<unsigned int(const Leaf<dim> &)> &weight) const
+  {
+    const auto [directory, info] = find("lattice");
     info.require_same("Lower corner",
                       "Domain/Lower corner",
                       to_text(parameters.lower_corner));
@@ -243,11 +267,37 @@ namespace treacle
     require(info.get("Cells") == std::to_string(mesh->cells->size()),
             "The checkpoint \"" + directory + "\" is damaged: its leaves do not make " +
               info.get("Cells") + " cells.");
-    const auto rows =
-      TableFile<double>::read(comm,
-                              directory + "/cells",
-                              row_size<dim> * mesh->cells->local_range().first,
-                              row_size<dim> * mesh->n_owned_cells());
+    return load_state(mesh,
+                      info,
+                      TableFile<double>::read(comm,
+                                              directory + "/cells",
+                                              row_size<dim> * mesh->cells->local_range().first,
+                                              row_size<dim> * mesh->n_owned_cells()));
+  }
+
+  template <int dim>
+  std::pair<State<dim>, typename Checkpoint<dim>::Progress>
+  Checkpoint<dim>::load(std::shared_ptr<const Mesh<dim>> imported) const
+  {
+    const auto [directory, info] = find("file");
+    const auto &[lower, upper]   = imported->box().get_boundary_points();
+    info.require_same("Cells", "the number of cells of Mesh/File", std::to_string(imported->cells->size()));
+    info.require_same("Nodes", "the number of vertices of Mesh/File", std::to_string(imported->nodes->size()));
+    info.require_same("Lower corner", "the lower corner of Mesh/File", to_text(lower));
+    info.require_same("Upper corner", "the upper corner of Mesh/File", to_text(upper));
+    const RowOrder<dim> order(*imported, row_size<dim>);
+    return load_state(imported,
+                      info,
+                      order.rows(TableFile<double>::read(
+                        comm, directory + "/cells", order.offset(), order.n_numbers())));
+  }
+
+  template <int dim>
+  std::pair<State<dim>, typename Checkpoint<dim>::Progress>
+  Checkpoint<dim>::load_state(std::shared_ptr<const Mesh<dim>> mesh,
+                              const CheckpointInfo            &info,
+                              const std::vector<double>       &rows) const
+  {
     State<dim> state(mesh);
     state.time = std::stod(info.get("Time"));
     state.step = std::stoul(info.get("Step"));

@@ -117,7 +117,9 @@ namespace treacle
   std::shared_ptr<const Mesh<dim>>
   mesh_for_next_surface(const State<dim> &state, const Advection<dim> &advection, const double dt)
   {
-    const Mesh<dim>              &mesh   = *state.mesh;
+    const Mesh<dim> &mesh = *state.mesh;
+    if (!mesh.lattice())
+      return state.mesh;
     const Octree<dim>            &octree = mesh.octree();
     const std::vector<Point<dim>> moved =
       advection.move_surface(sample_points(extract_surface(mesh, state.phi)), dt);

@@ -54,9 +54,10 @@ namespace treacle
     const Point<dim> &
     upper_corner() const;
 
-    /// Does the liquid stick to this side of the box? side = 2 axis + (upper ? 1 : 0).
+    /// Does the liquid stick to this kind of wall? Sides of the box are 2 axis +
+    /// (upper ? 1 : 0); all others, see Walls, have the default condition.
     bool
-    no_slip(const unsigned int side) const;
+    no_slip(const unsigned int wall) const;
 
     unsigned int n_liquids() const;
 
@@ -91,7 +92,7 @@ namespace treacle
 
   private:
     Point<dim>                         lower, upper;
-    std::array<bool, 2 * dim>          sticks; // per side of the box
+    std::array<bool, 2 * dim + 1>      sticks; // per side of the box; the default
     std::vector<Shape<dim>>            liquids;
     std::vector<VectorExpression<dim>> liquid_velocities;
     std::vector<Shape<dim>>            solids;

@@ -27,7 +27,8 @@ namespace treacle
                const Scene<dim>                       &scene);
 
   /// The mesh for the surface after dt: the old one while the surface stays well
-  /// inside its finest leaves, else a new one around it. Collective.
+  /// inside its finest leaves, else a new one around it; from a file always the old one.
+  /// Collective.
   template <int dim>
   std::shared_ptr<const Mesh<dim>>
   mesh_for_next_surface(const State<dim> &state, const Advection<dim> &advection, const double dt);
