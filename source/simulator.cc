@@ -219,8 +219,9 @@ namespace treacle
         if (imported->face_side[f] == Walls<dim>::oblique)
           {
             error = "Domain/Wall condition: liquid slips along walls normal to an axis only, and "
-                    "the mesh \"" + prm.imported.file + "\" has others; write \"default: no slip; "
-                    "\" and the sides of its box that are free slip.";
+                    "the mesh \"" + prm.imported.file +
+                    "\" has others; let the default be no slip, as in \"default: no slip; top: "
+                    "free slip\".";
             break;
           }
     throw_first(comm, error);

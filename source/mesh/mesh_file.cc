@@ -29,6 +29,7 @@ namespace treacle
     void
     read_file(const std::string &path, Triangulation<dim> &triangulation)
     {
+      require(!path.empty(), "Mesh/File: the type \"file\" needs the name of a mesh file.");
       require(std::ifstream(path).good(),
               "Mesh/File: the file \"" + path + "\" cannot be opened.");
       const std::string in_short = "Mesh/File: no mesh of " + std::string(shape_name<dim>()) +
@@ -44,13 +45,14 @@ namespace treacle
           exception.print_info(text);
           std::istringstream words(text.str());
           std::string        reason;
-          for (std::string word; words >> word;)
+          for (std::string word; words >> word && reason.size() < 200;)
             reason += " " + word;
-          throw UserError(in_short + " (deal.II says:" + reason + ")");
+          throw UserError(in_short +
+                          (reason == " (none)" ? "." : " (deal.II says:" + reason + ")."));
         }
       catch (const std::exception &exception)
         {
-          throw UserError(in_short + " (" + exception.what() + ")");
+          throw UserError(in_short + " (" + exception.what() + ").");
         }
       for (const ReferenceCell &kind : triangulation.get_reference_cells())
         require(kind == ReferenceCells::get_simplex<dim>(),
@@ -87,9 +89,9 @@ namespace treacle
     part(triangulation, n_ranks);
     orient_cells();
     find_neighbours();
-    check_connected();
     find_walls();
     check_walls();
+    check_connected();
   }
 
   template <int dim>
