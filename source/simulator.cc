@@ -54,6 +54,15 @@ namespace treacle
       mesh.upper_corner = scene.upper_corner();
       return mesh;
     }
+    template <int dim>
+    std::string
+    corner_text(const Point<dim> &x)
+    {
+      std::string text = Utilities::to_string(x[0]);
+      for (unsigned int d = 1; d < dim; ++d)
+        text += ", " + Utilities::to_string(x[d]);
+      return text;
+    }
   } // namespace
 
   template <int dim>
@@ -180,6 +189,11 @@ namespace treacle
   {
     replace_file(comm, prm.output_directory + "/parameters.prm", [&](std::ostream &out) {
       out << parameters_as_used;
+      if (imported)
+        out << "\n# the box of the mesh\nsubsection Domain\n  set Lower corner = "
+            << corner_text(imported->box().get_boundary_points().first)
+            << "\n  set Upper corner = "
+            << corner_text(imported->box().get_boundary_points().second) << "\nend\n";
     });
   }
 
