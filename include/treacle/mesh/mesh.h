@@ -52,7 +52,7 @@ namespace treacle
     const Octree<dim> &
     octree() const
     {
-      Assert(on_lattice, ExcMessage("This mesh was read from a file."));
+      AssertThrow(on_lattice, ExcMessage("This mesh was read from a file."));
       return on_lattice->octree();
     }
 
