@@ -25,8 +25,9 @@ def filled(loops, **style):
 
 
 def draw_box(axes, run):
-    axes.add_patch(Rectangle(run.lower, *(run.upper - run.lower), fill=False,
-                             edgecolor=FRAME, linewidth=1.5, zorder=5))
+    if not run.has_mesh_file:
+        axes.add_patch(Rectangle(run.lower, *(run.upper - run.lower), fill=False,
+                                 edgecolor=FRAME, linewidth=1.5, zorder=5))
     for shape, value, inside_out in run.solids():
         if shape == "sphere":
             patch = Circle(value("Centre"), value("Radius")[0])
@@ -61,6 +62,8 @@ class Pictures2D:
         points = surface.points[:, :2]
         if options.mesh:
             self._mesh(figure, axes, frame)
+        elif run.has_mesh_file:
+            self._container(axes, frame)
         else:
             loops = liquid_loops(points, surface.facets, run.lower, run.upper)
             if loops:
@@ -78,6 +81,17 @@ class Pictures2D:
         axes.set(xlabel="x (m)", ylabel="y (m)")
         figure.savefig(path)
         plt.close(figure)
+
+    def _container(self, axes, frame):
+        from mesh_liquid import walls, weld, wet_polygons
+        from mesh_reader import read_mesh
+        points, cells, phi = read_mesh(self.run.mesh(frame))
+        polygons = list(wet_polygons(points[:, :2], cells, phi))
+        axes.add_collection(PolyCollection(polygons, facecolors=LIQUID, edgecolors=LIQUID,
+                                           linewidths=0.3))
+        points, cells = weld(points[:, :2], cells)
+        axes.add_collection(LineCollection(walls(points, cells), colors=FRAME, linewidths=1.5,
+                                           capstyle="round", zorder=5))
 
     def _mesh(self, figure, axes, frame):
         from mesh_reader import read_mesh

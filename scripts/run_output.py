@@ -48,6 +48,10 @@ class Run:
             raise DataError(f"there are no surfaces {self.directory}/frames/surface_*.ply")
         self._times = self._read_times()
 
+    @property
+    def has_mesh_file(self):
+        return self.parameters.get("Mesh/Type") == "file"
+
     def get(self, name):
         if name not in self.parameters:
             raise DataError(f"{self.directory}/parameters.prm does not set '{name}'")

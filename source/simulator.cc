@@ -27,6 +27,7 @@ namespace treacle
                           "Where everything that a run writes goes.");
     time_step.add_parameters(handler);
     scene.add_parameters(handler, n_liquids, n_solids, n_emitters);
+    imported.add_parameters(handler);
     mesh.add_parameters(handler);
     tracking.add_parameters(handler);
     advection.add_parameters(handler);
@@ -56,6 +57,15 @@ namespace treacle
       mesh.upper_corner = scene.upper_corner();
       return mesh;
     }
+    template <int dim>
+    std::string
+    corner_text(const Point<dim> &x)
+    {
+      std::string text = Utilities::to_string(x[0]);
+      for (unsigned int d = 1; d < dim; ++d)
+        text += ", " + Utilities::to_string(x[d]);
+      return text;
+    }
   } // namespace
 
   template <int dim>
@@ -75,7 +85,13 @@ namespace treacle
     , checkpoint(comm, prm.checkpoint, prm.output_directory)
     , timing(comm)
   {
-    with_box(prm.mesh, scene).check();
+    if (!prm.imported.is_imported())
+      with_box(prm.mesh, scene).check();
+    else
+      {
+        imported = std::make_shared<const Mesh<dim>>(comm, prm.imported.file);
+        check_walls();
+      }
   }
 
   template <int dim>
@@ -88,8 +104,7 @@ namespace treacle
       start();
     log->line("Treacle " TREACLE_VERSION ", " + std::to_string(dim) + "D, " +
               std::to_string(Utilities::MPI::n_mpi_processes(comm)) + " ranks, " +
-              std::to_string(state->mesh->cells->size()) + " cells, leaf edge " +
-              Utilities::to_string(state->mesh->finest_size()) + " m");
+              std::to_string(state->mesh->cells->size()) + " cells, " + description_of_mesh());
 
     while (frame < time_step.n_frames())
       {
@@ -109,10 +124,10 @@ namespace treacle
   void
   Simulator<dim>::start()
   {
-    const auto parameters = with_box(prm.mesh, scene);
-    state = std::make_unique<State<dim>>(initial_mesh<dim>(comm, parameters, scene));
+    state = std::make_unique<State<dim>>(
+      imported ? imported : initial_mesh<dim>(comm, with_box(prm.mesh, scene), scene));
     const Mesh<dim> &mesh = *state->mesh;
-    reach                 = (prm.time_step.cfl + 3) * mesh.finest_size();
+    reach                 = time_step.reach(mesh);
     std::string error;
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
@@ -158,7 +173,9 @@ namespace treacle
   void
   Simulator<dim>::resume()
   {
-    auto [loaded, progress] = checkpoint.load(with_box(prm.mesh, scene), &leaf_weight<dim>);
+    auto [loaded, progress] = imported ?
+                                checkpoint.load(imported) :
+                                checkpoint.load(with_box(prm.mesh, scene), &leaf_weight<dim>);
     state                   = std::make_unique<State<dim>>(std::move(loaded));
     frame                   = progress.frame;
     require(std::abs(time_step.frame_time(frame) - state->time) <= 1e-9 * state->time,
@@ -167,7 +184,7 @@ namespace treacle
     require(state->material.has_value() == scene.has_advected_material(),
             "Material/Transport: it must be the one of the run that is resumed.");
     volume                  = progress.scalars.at("volume");
-    reach                   = (prm.time_step.cfl + 3) * state->mesh->finest_size();
+    reach                   = time_step.reach(*state->mesh);
     domain = std::make_unique<LiquidDomain<dim>>(*state, scene, prm.projection.minimum_theta);
     log        = std::make_unique<Log>(comm, prm.output_directory, true);
     statistics = std::make_unique<Statistics<dim>>(comm, prm.output_directory);
@@ -183,6 +200,11 @@ namespace treacle
   {
     replace_file(comm, prm.output_directory + "/parameters.prm", [&](std::ostream &out) {
       out << parameters_as_used;
+      if (imported)
+        out << "\n# the box of the mesh\nsubsection Domain\n  set Lower corner = "
+            << corner_text(imported->box().get_boundary_points().first)
+            << "\n  set Upper corner = "
+            << corner_text(imported->box().get_boundary_points().second) << "\nend\n";
     });
   }
 
@@ -200,8 +222,11 @@ namespace treacle
             outside_solids = outside_solids || scene.solid_distance(x, 0) > 0;
           }
       require(Utilities::MPI::max(in_box ? 1 : 0, comm) == 1,
-              name + " lies outside the box, or is smaller than the cells: move it, change "
-                     "Domain/Lower corner and Upper corner, or raise Mesh/Surface level.");
+              name + (imported ? " lies outside the mesh, or is smaller than its cells: move it, "
+                                 "or change Mesh/File." :
+                                 " lies outside the box, or is smaller than the cells: move it, "
+                                 "change Domain/Lower corner and Upper corner, or raise "
+                                 "Mesh/Surface level."));
       require(Utilities::MPI::max(outside_solids ? 1 : 0, comm) == 1,
               name + " lies inside a solid: move one of them.");
     };
@@ -210,6 +235,38 @@ namespace treacle
             [&](const Point<dim> &x) { return scene.liquid_distance(k, x); });
     for (const Emitter<dim> &emitter : scene.emitters())
       check(emitter.where, [&](const Point<dim> &x) { return emitter.signed_distance(x); });
+  }
+
+  template <int dim>
+  void
+  Simulator<dim>::check_walls() const
+  {
+    std::string error;
+    if (!scene.no_slip(Walls<dim>::oblique))
+      for (LocalIndex f = 0; f < imported->n_owned_faces(); ++f)
+        if (imported->face_side[f] == Walls<dim>::oblique)
+          {
+            error = "Domain/Wall condition: liquid slips along walls normal to an axis only, and "
+                    "the mesh \"" + prm.imported.file +
+                    "\" has others; let the default be no slip, as in \"default: no slip; top: "
+                    "free slip\".";
+            break;
+          }
+    throw_first(comm, error);
+  }
+
+  template <int dim>
+  std::string
+  Simulator<dim>::description_of_mesh() const
+  {
+    const Mesh<dim> &mesh = *state->mesh;
+    if (!imported)
+      return "leaf edge " + Utilities::to_string(mesh.finest_size()) + " m";
+    char size[32];
+    std::snprintf(size, sizeof size, "%.4g", mesh.finest_size());
+    return "mesh " + prm.imported.file + " of mean size " + size + " m, " +
+           std::to_string(mesh.n_clamped_dual_lengths) + " of " +
+           std::to_string(mesh.faces->size()) + " dual lengths clamped";
   }
 
   template <int dim>
@@ -234,7 +291,7 @@ namespace treacle
       const auto section = timing.section("surface");
       info.emitted = emit(next, scene, dt);
       volume += info.emitted;
-      next.markers       = to_owners(mesh->octree(), markers);
+      next.markers       = to_owners(*mesh, markers);
       tracking.advance(next, scene, reach, volume);
       if (next.material)
         extend_material(next, n_layers());

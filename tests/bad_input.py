@@ -57,8 +57,42 @@ CASES = [
      {"Linear solvers/Pressure/Maximum iterations": "1", "Linear solvers/Pressure/Preconditioner": "none",
       "Domain/Upper corner": "1, 1", "Liquid 1/Centre": "0.5, 0.1"},
      r"Linear solvers/Pressure.*Maximum iterations"),
+    ("mesh without a file", {"Mesh/Type": "file"}, r"Mesh/File.*needs the name"),
+    ("missing mesh", {"Mesh/Type": "file", "Mesh/File": "nowhere.msh"}, r"nowhere\.msh.*cannot be opened"),
+    ("mesh that is none", {"Mesh/Type": "file", "Mesh/File": "open.off"}, r"no mesh of triangles.*open\.off"),
+    ("mesh of squares", {"Mesh/Type": "file", "Mesh/File": "square.msh"}, r"square\.msh.*Quad.*triangles"),
+    ("mesh of another dimension", {"Dimension": "3", "Mesh/Type": "file", "Mesh/File": "pair.msh",
+                                   "Liquid 1/Velocity": "0; 0; 0"}, r"no mesh of tetrahedra.*pair\.msh"),
+    ("hanging node", {"Mesh/Type": "file", "Mesh/File": "hanging.msh"}, r"hanging\.msh.*hanging node"),
+    ("two pieces", {"Mesh/Type": "file", "Mesh/File": "pieces.msh"}, r"pieces\.msh.*share no face"),
+    ("overlapping cells", {"Mesh/Type": "file", "Mesh/File": "folded.msh"}, r"folded\.msh.*overlap"),
+    ("flat cell", {"Mesh/Type": "file", "Mesh/File": "flat.msh"}, r"flat\.msh.*no volume"),
+    ("oblique wall that slips", {"Mesh/Type": "file", "Mesh/File": "pair.msh",
+                                 "Domain/Wall condition": "free slip"}, r"Wall condition.*normal to an axis"),
     ("resume without a checkpoint", {"--resume": ""}, r"checkpoint"),
 ]
+
+
+CORNERS = ["0 0", "1 0", "1 1", "0 1.2"]
+
+# name, vertices, cells as (Gmsh's number of the kind, vertices)
+MESHES = [
+    ("pair", CORNERS, [(2, "1 2 3"), (2, "1 3 4")]),
+    ("square", CORNERS, [(3, "1 2 3 4")]),
+    ("hanging", CORNERS + ["0.5 0.5"], [(2, "1 2 3"), (2, "1 5 4"), (2, "5 3 4")]),
+    ("pieces", CORNERS + ["3 0", "4 0", "4 1"], [(2, "1 2 3"), (2, "1 3 4"), (2, "5 6 7")]),
+    ("folded", CORNERS + ["0.9 0.3"], [(2, "1 2 3"), (2, "1 3 5")]),
+    ("flat", CORNERS + ["2 2"], [(2, "1 2 3"), (2, "1 3 5")]),
+]
+
+
+def write_meshes(path):
+    for name, vertices, cells in MESHES:
+        lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", str(len(vertices))]
+        lines += [f"{k} {x} 0" for k, x in enumerate(vertices, 1)]
+        lines += ["$EndNodes", "$Elements", str(len(cells))]
+        lines += [f"{k} {kind} 2 0 1 {cell}" for k, (kind, cell) in enumerate(cells, 1)]
+        (path / f"{name}.msh").write_text("\n".join(lines + ["$EndElements", ""]))
 
 
 def command(program, ranks, changes):
@@ -78,6 +112,7 @@ def failures(program):
                 (path / "empty.prm").write_text("")
                 (path / "open.off").write_text(
                     "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n")
+                write_meshes(path)
                 run = subprocess.run(command(program, ranks, changes), cwd=path,
                                      capture_output=True, text=True, timeout=300)
                 errors = [l for l in run.stderr.splitlines() if l.startswith("treacle: error: ")]

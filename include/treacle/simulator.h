@@ -10,6 +10,7 @@
 #include <treacle/io/mesh_writer.h>
 #include <treacle/io/statistics.h>
 #include <treacle/io/surface_writer.h>
+#include <treacle/mesh/imported_mesh.h>
 #include <treacle/steps/advection.h>
 #include <treacle/steps/forces.h>
 #include <treacle/steps/projection.h>
@@ -32,6 +33,7 @@ namespace treacle
 
       typename TimeStep<dim>::Parameters        time_step;
       typename Scene<dim>::Parameters           scene;
+      typename ImportedMesh<dim>::Parameters    imported;
       typename Octree<dim>::Parameters          mesh;
       typename SurfaceTracking<dim>::Parameters tracking;
       typename Advection<dim>::Parameters       advection;
@@ -83,6 +85,12 @@ namespace treacle
     }
 
     void
+    check_walls() const;
+
+    std::string
+    description_of_mesh() const;
+
+    void
     step(const double dt);
 
     void
@@ -112,6 +120,7 @@ namespace treacle
     std::unique_ptr<Log>             log;
     std::unique_ptr<Statistics<dim>> statistics;
 
+    std::shared_ptr<const Mesh<dim>>   imported; ///< null if the mesh is a lattice
     std::unique_ptr<State<dim>>        state;
     std::unique_ptr<LiquidDomain<dim>> domain;
     unsigned int                       frame  = 0; ///< the last one written

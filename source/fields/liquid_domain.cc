@@ -250,9 +250,9 @@ namespace treacle
     for (LocalIndex node = 0; node < n; ++node)
       {
         is_active_node[node] = active.local_element(node) > 0;
-        for (unsigned int side = 0; side < 2 * dim; ++side)
-          if (mesh.node_sides[node] >> side & 1)
-            constrained[node] |= scene.no_slip(side) ? all : 1u << (side / 2);
+        for (unsigned int wall = 0; wall < Walls<dim>::n; ++wall)
+          if (mesh.node_sides[node] >> wall & 1)
+            constrained[node] |= scene.no_slip(wall) ? all : 1u << Walls<dim>::axis(wall);
         if (solid_distance[node] <= 0)
           {
             prescribed[node]  = scene.solid_velocity(mesh.node_position[node], state.time);

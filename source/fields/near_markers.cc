@@ -8,14 +8,14 @@
 namespace treacle
 {
   template <int dim>
-  NearMarkers<dim>::NearMarkers(const Octree<dim>              &octree,
+  NearMarkers<dim>::NearMarkers(const Mesh<dim>                &mesh,
                                 const std::vector<Marker<dim>> &markers,
                                 const std::vector<double>      &values,
                                 const double                    reach)
     : reach(reach)
-    , octree(octree)
+    , origin(mesh.box().get_boundary_points().first)
   {
-    const NearRanks<dim>                     near(octree, reach);
+    const NearRanks<dim>                     near(mesh, reach);
     PerRank<std::array<double, 2 * dim + 1>> to_rank(near.n_ranks());
     for (unsigned int k = 0; k < markers.size(); ++k)
       {
@@ -28,10 +28,20 @@ namespace treacle
           to_rank[r].back().back() = values[k];
         });
       }
-    for (const auto &received : send_and_receive(octree.communicator(), to_rank))
+    for (const auto &received : send_and_receive(mesh.communicator(), to_rank))
       for (const auto &numbers : received)
         all.push_back({Marker<dim>::from(numbers.data()), numbers.back()});
     sort_into_cubes();
+  }
+
+  template <int dim>
+  LatticePoint<dim>
+  NearMarkers<dim>::cube_of(const Point<dim> &x) const
+  {
+    LatticePoint<dim> cube;
+    for (unsigned int d = 0; d < dim; ++d)
+      cube[d] = static_cast<int>(std::max(0., std::floor((x[d] - origin[d]) / reach)));
+    return cube;
   }
 
   template <int dim>
@@ -40,7 +50,7 @@ namespace treacle
   {
     std::vector<std::pair<VertexKey, unsigned int>> order;
     for (unsigned int k = 0; k < all.size(); ++k)
-      order.emplace_back(pack<dim>(octree.finest_cube(all[k].marker.position)), k);
+      order.emplace_back(pack<dim>(cube_of(all[k].marker.position)), k);
     // in an order that no partition changes: sums and ties depend on it
     std::sort(order.begin(), order.end(), [&](const auto &a, const auto &b) {
       return a.first != b.first ?
@@ -70,7 +80,7 @@ namespace treacle
         lower[d] -= reach;
         upper[d] += reach;
       }
-    const LatticePoint<dim> first = octree.finest_cube(lower), last = octree.finest_cube(upper);
+    const LatticePoint<dim> first = cube_of(lower), last = cube_of(upper);
     for (LatticePoint<dim> cube = first; cube[dim - 1] <= last[dim - 1];)
       {
         if (const auto found = cubes.find(pack<dim>(cube)); found != cubes.end())
@@ -79,7 +89,7 @@ namespace treacle
               result.push_back(&all[k]);
         for (unsigned int d = 0; d < dim; ++d)
           {
-            cube[d] += 2;
+            ++cube[d];
             if (cube[d] <= last[d] || d == dim - 1)
               break;
             cube[d] = first[d];

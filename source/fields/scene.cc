@@ -44,9 +44,10 @@ namespace treacle
                       (dim == 3 ? "front, back, " : "") + "bottom, top.");
     }
 
-    /// Sides that are not mentioned, by name or as "default", are no slip.
+    /// Per side, then the default. Sides that are not mentioned, by name or as
+    /// "default", are no slip.
     template <int dim>
-    std::array<bool, 2 * dim>
+    std::array<bool, 2 * dim + 1>
     parse_wall_condition(const std::string &text)
     {
       const std::vector<std::string> sides = side_names<dim>();
@@ -73,7 +74,8 @@ namespace treacle
         wall_condition_error(text, "it sets no side", dim);
 
       no_slip.emplace("default", true);
-      std::array<bool, 2 * dim> result;
+      std::array<bool, 2 * dim + 1> result;
+      result[2 * dim] = no_slip["default"];
       for (unsigned int side = 0; side < 2 * dim; ++side)
         result[side] = no_slip[no_slip.count(sides[side]) ? sides[side] : "default"];
       return result;
@@ -111,15 +113,16 @@ namespace treacle
     prm.enter_subsection("Domain");
     prm.add_parameter("Lower corner",
                       lower_corner,
-                      "Smallest coordinates (m) of the box.");
+                      "Smallest coordinates (m) of the box; a mesh from a file has its own.");
     prm.add_parameter("Upper corner",
                       upper_corner,
-                      "Largest coordinates (m) of the box.");
+                      "Largest coordinates (m) of the box; a mesh from a file has its own.");
     prm.add_parameter("Wall condition",
                       wall_condition,
                       "\"no slip\" or \"free slip\", or per side, as in \"default: no "
                       "slip; left, right: free slip\": left and right along x, bottom "
-                      "and top along the last axis, in 3D front and back along y.");
+                      "and top along the last axis, in 3D front and back along y. Walls of a "
+                      "mesh from a file that are no side of its box have the default.");
     prm.leave_subsection();
 
     prm.enter_subsection("Material");
@@ -232,10 +235,9 @@ namespace treacle
 
   template <int dim>
   bool
-  Scene<dim>::no_slip(const unsigned int side) const
+  Scene<dim>::no_slip(const unsigned int wall) const
   {
-    AssertIndexRange(side, 2 * dim);
-    return sticks[side];
+    return sticks[std::min(wall, 2u * dim)];
   }
 
   template <int dim>

@@ -5,6 +5,7 @@
 #include <treacle/base/files.h>
 #include <treacle/io/checkpoint.h>
 #include <treacle/io/checkpoint_info.h>
+#include <treacle/io/row_order.h>
 #include <treacle/io/table_file.h>
 
 #include <filesystem>
@@ -68,12 +69,32 @@ namespace treacle
       return out.str();
     }
 
+    template <int dim>
+    std::vector<int>
+    numbers_of_leaves(const Octree<dim> &octree)
+    {
+      std::vector<int> result;
+      for (unsigned int l = 0; l < octree.n_owned_leaves(); ++l)
+        {
+          const Leaf<dim> &leaf = octree.leaves()[l];
+          result.insert(result.end(), leaf.origin.begin(), leaf.origin.end());
+          result.push_back(leaf.level);
+        }
+      return result;
+    }
+
     /// Level set, velocity and material at the nodes of a cell, face velocity, pressure.
     template <int dim>
     unsigned int
     row_size(const bool with_material)
     {
       return (dim + 1) * (dim + 2 + (with_material ? 2 : 0)) + 1;
+    }
+
+    bool
+    has_material(const CheckpointInfo &info)
+    {
+      return info.get("Advected material") == "true";
     }
 
     /// Call @p visit with each number of the rows of this rank's cells in turn.
@@ -109,17 +130,21 @@ namespace treacle
                const typename Checkpoint<dim>::Progress &progress)
     {
       const Mesh<dim> &mesh = *state.mesh;
-      const auto      &prm  = mesh.octree().parameters();
+      const auto      &box  = mesh.box().get_boundary_points();
       out << std::setprecision(17) << "Format = 2\nDimension = " << dim
           << "\nRanks = " << Utilities::MPI::n_mpi_processes(mesh.communicator())
           << "\nTime = " << state.time << "\nStep = " << state.step
           << "\nFrame = " << progress.frame << "\nCells = " << mesh.cells->size()
           << "\nAdvected material = " << (state.material ? "true" : "false")
           << "\nMarkers = " << n_markers
-          << "\nLower corner = " << to_text(prm.lower_corner)
-          << "\nUpper corner = " << to_text(prm.upper_corner)
-          << "\nRoot cells = " << prm.root_cells
-          << "\nSurface level = " << prm.surface_level << '\n';
+          << "\nMesh type = " << (mesh.lattice() ? "lattice" : "file")
+          << "\nLower corner = " << to_text(box.first)
+          << "\nUpper corner = " << to_text(box.second) << '\n';
+      if (mesh.lattice())
+        out << "Root cells = " << mesh.octree().parameters().root_cells
+            << "\nSurface level = " << mesh.octree().parameters().surface_level << '\n';
+      else
+        out << "Nodes = " << mesh.nodes->size() << '\n';
       for (const auto &[name, value] : progress.scalars)
         out << scalar_prefix << name << " = " << value << '\n';
     }
@@ -131,11 +156,11 @@ namespace treacle
     /// which it saved them.
     template <int dim>
     std::vector<Marker<dim>>
-    load_markers(const Octree<dim>  &octree,
+    load_markers(const Mesh<dim>    &mesh,
                  const std::string  &directory,
                  const std::uint64_t n)
     {
-      const MPI_Comm          &comm    = octree.communicator();
+      const MPI_Comm          &comm    = mesh.communicator();
       const std::uint64_t      rank    = Utilities::MPI::this_mpi_process(comm);
       const std::uint64_t      n_ranks = Utilities::MPI::n_mpi_processes(comm);
       const std::uint64_t      begin   = n * rank / n_ranks, end = n * (rank + 1) / n_ranks;
@@ -145,7 +170,7 @@ namespace treacle
       std::vector<Marker<dim>> part;
       for (std::uint64_t k = 0; k < end - begin; ++k)
         part.push_back(Marker<dim>::from(&numbers[size * k]));
-      return to_owners(octree, part);
+      return to_owners(mesh, part);
     }
   } // namespace
 
@@ -159,22 +184,19 @@ namespace treacle
       discard(fresh);
     create_directory(comm, fresh);
 
-    const Octree<dim> &octree = state.mesh->octree();
-    std::vector<int>   leaves;
-    for (unsigned int l = 0; l < octree.n_owned_leaves(); ++l)
-      {
-        const Leaf<dim> &leaf = octree.leaves()[l];
-        leaves.insert(leaves.end(), leaf.origin.begin(), leaf.origin.end());
-        leaves.push_back(leaf.level);
-      }
-    TableFile<int>::write(comm, fresh + "/leaves", leaves);
+    const Mesh<dim> &mesh = *state.mesh;
+    if (mesh.lattice())
+      TableFile<int>::write(comm, fresh + "/leaves", numbers_of_leaves(mesh.octree()));
 
     std::vector<double> rows;
-    rows.reserve(row_size<dim>(state.material.has_value()) * state.mesh->n_owned_cells());
+    const unsigned int size = row_size<dim>(state.material.has_value());
+    rows.reserve(size * mesh.n_owned_cells());
     for_each_number<dim>(state,
                          [&](const Vector &v, const LocalIndex i, const LocalIndex) {
                            rows.push_back(v.local_element(i));
                          });
+    if (!mesh.lattice()) // there owned cells stand in the order of their numbers
+      rows = RowOrder<dim>(mesh, size).shares(rows);
     TableFile<double>::write(comm, fresh + "/cells", rows);
     std::vector<double> markers;
     for (const Marker<dim> &marker : state.markers)
@@ -247,10 +269,8 @@ namespace treacle
   }
 
   template <int dim>
-  std::pair<State<dim>, typename Checkpoint<dim>::Progress>
-  Checkpoint<dim>::load(
-    const typename Octree<dim>::Parameters               &parameters,
-    const std::function<unsigned int(const Leaf<dim> &)> &weight) const
+  std::pair<std::string, CheckpointInfo>
+  Checkpoint<dim>::find(const std::string &mesh_type) const
   {
     // the newest that is complete; between two renames it is not at its place
     std::string directory, text;
@@ -270,6 +290,17 @@ namespace treacle
     const CheckpointInfo info(text, info_file(directory));
     info.require_same("Format", "the format", "2");
     info.require_same("Dimension", "Dimension", std::to_string(dim));
+    info.require_same("Mesh type", "Mesh/Type", mesh_type);
+    return {directory, info};
+  }
+
+  template <int dim>
+  std::pair<State<dim>, typename Checkpoint<dim>::Progress>
+  Checkpoint<dim>::load(
+    const typename Octree<dim>::Parameters               &parameters,
+    const std::function<unsigned int(const Leaf<dim> &)> &weight) const
+  {
+    const auto [directory, info] = find("lattice");
     info.require_same("Lower corner",
                       "Domain/Lower corner",
                       to_text(parameters.lower_corner));
@@ -288,14 +319,43 @@ namespace treacle
     require(info.get("Cells") == std::to_string(mesh->cells->size()),
             "The checkpoint \"" + directory + "\" is damaged: its leaves do not make " +
               info.get("Cells") + " cells.");
-    const bool         with_material = info.get("Advected material") == "true";
-    const unsigned int n             = row_size<dim>(with_material);
-    const auto         rows          = TableFile<double>::read(comm,
-                                                directory + "/cells",
-                                                n * mesh->cells->local_range().first,
-                                                n * mesh->n_owned_cells());
+    const unsigned int n = row_size<dim>(has_material(info));
+    return load_state(mesh,
+                      directory,
+                      info,
+                      TableFile<double>::read(comm,
+                                              directory + "/cells",
+                                              n * mesh->cells->local_range().first,
+                                              n * mesh->n_owned_cells()));
+  }
+
+  template <int dim>
+  std::pair<State<dim>, typename Checkpoint<dim>::Progress>
+  Checkpoint<dim>::load(std::shared_ptr<const Mesh<dim>> imported) const
+  {
+    const auto [directory, info] = find("file");
+    const auto &[lower, upper]   = imported->box().get_boundary_points();
+    info.require_same("Cells", "the number of cells of Mesh/File", std::to_string(imported->cells->size()));
+    info.require_same("Nodes", "the number of vertices of Mesh/File", std::to_string(imported->nodes->size()));
+    info.require_same("Lower corner", "the lower corner of Mesh/File", to_text(lower));
+    info.require_same("Upper corner", "the upper corner of Mesh/File", to_text(upper));
+    const RowOrder<dim> order(*imported, row_size<dim>(has_material(info)));
+    return load_state(imported,
+                      directory,
+                      info,
+                      order.rows(TableFile<double>::read(
+                        comm, directory + "/cells", order.offset(), order.n_numbers())));
+  }
+
+  template <int dim>
+  std::pair<State<dim>, typename Checkpoint<dim>::Progress>
+  Checkpoint<dim>::load_state(std::shared_ptr<const Mesh<dim>> mesh,
+                              const std::string               &directory,
+                              const CheckpointInfo            &info,
+                              const std::vector<double>       &rows) const
+  {
     State<dim> state(mesh);
-    if (with_material)
+    if (has_material(info))
       state.material = CarriedMaterial(mesh->nodes);
     state.time = std::stod(info.get("Time"));
     state.step = std::stoul(info.get("Step"));
@@ -309,7 +369,7 @@ namespace treacle
                          });
     if (state.material)
       state.material->update_ghost_values();
-    state.markers = load_markers<dim>(mesh->octree(), directory, std::stoull(info.get("Markers")));
+    state.markers = load_markers<dim>(*mesh, directory, std::stoull(info.get("Markers")));
     state.phi.update_ghost_values();
     state.u.update_ghost_values();
     state.v.update_ghost_values();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/base/exchange.h>
+#include <treacle/mesh/ask.h>
 #include <treacle/mesh/band.h>
 
 #include <unordered_set>
@@ -65,24 +65,16 @@ namespace treacle
         else
           finest = finest && octree.leaves()[leaf].size == 2;
       }
-    const std::vector<unsigned int>  owner = octree.owner_ranks(elsewhere);
-    PerRank<std::array<double, dim>> questions(Utilities::MPI::n_mpi_processes(comm));
-    for (unsigned int i = 0; i < elsewhere.size(); ++i)
-      {
-        std::array<double, dim> x;
-        for (unsigned int d = 0; d < dim; ++d)
-          x[d] = elsewhere[i][d];
-        questions[owner[i]].push_back(x);
-      }
-    for (const auto &asked : send_and_receive(comm, questions))
-      for (const auto &numbers : asked)
-        {
-          Point<dim> x;
-          for (unsigned int d = 0; d < dim; ++d)
-            x[d] = numbers[d];
-          const LocalIndex leaf = octree.leaf_containing(x);
-          finest = finest && leaf != invalid && octree.leaves()[leaf].size == 2;
-        }
+    for (const double is_finest :
+         ask(comm,
+             octree.owner_ranks(elsewhere),
+             elsewhere,
+             1,
+             [&](const Point<dim> &x, double *answer) {
+               const LocalIndex leaf = octree.leaf_containing(x);
+               *answer = leaf != invalid && octree.leaves()[leaf].size == 2;
+             }))
+      finest = finest && is_finest == 1;
     return Utilities::MPI::min(finest ? 1 : 0, comm) == 1;
   }
 

@@ -1,264 +1,58 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/base/exchange.h>
+#include <treacle/mesh/covering_boxes.h>
+#include <treacle/mesh/imported_mesh.h>
 #include <treacle/mesh/mesh.h>
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_simplex_p.h>
 
 #include <numeric>
-#include <set>
-#include <unordered_set>
 
 namespace treacle
 {
-  namespace
-  {
-    /// Bit 2 axis + upper is set where p lies on that side of the box.
-    template <int dim>
-    unsigned int
-    box_sides(const Octree<dim> &octree, const LatticePoint<dim> &p)
-    {
-      unsigned int sides = 0;
-      for (unsigned int d = 0; d < dim; ++d)
-        sides |= (p[d] == 0) << (2 * d) | (p[d] == octree.extent()[d]) << (2 * d + 1);
-      return sides;
-    }
-
-    unsigned int
-    first_side(const unsigned int sides)
-    {
-      unsigned int side = 0;
-      while ((sides >> side & 1) == 0)
-        ++side;
-      return side;
-    }
-  } // namespace
-
-  /// A cell as ranks exchange it.
-  template <int dim>
-  struct Mesh<dim>::CellRecord
-  {
-    GlobalIndex                    id;
-    unsigned int                   owner;
-    unsigned int                   face; ///< of the leaf it stands on
-    VertexKey                      leaf; ///< its origin
-    double                         size;
-    std::array<VertexKey, dim + 1> vertex;
-    VertexValues<dim>              weight;
-  };
-
   template <int dim>
   Mesh<dim>::Mesh(std::shared_ptr<const Octree<dim>> octree)
     : triangulation(octree->communicator())
-    , tree(std::move(octree))
+    , comm(octree->communicator())
+    , around({octree->parameters().lower_corner, octree->parameters().upper_corner})
+    , finest(octree->finest_size())
+    , largest_at_surface(finest)
   {
-    std::vector<CellRecord> records = make_cells();
-    exchange_ghosts(records);
-    create_triangulation(records);
-    number(records);
-    fill_cells(records);
+    auto lattice = std::make_unique<LatticeMesh<dim>>(std::move(octree));
+    make(lattice->take_cells());
+    on_lattice = std::move(lattice);
+    measure_dual_edges();
+  }
+
+  template <int dim>
+  Mesh<dim>::Mesh(const MPI_Comm &comm, const std::string &file)
+    : triangulation(comm)
+    , comm(comm)
+  {
+    ImportedMesh<dim> imported(comm, file);
+    finest             = imported.mean_size;
+    largest_at_surface = imported.largest_size;
+    make(imported.cells);
+    measure_dual_edges();
+    make_tree();
+  }
+
+  template <int dim>
+  void
+  Mesh<dim>::make(const MeshCells<dim> &mesh_cells)
+  {
+    triangulation.create_triangulation(describe(comm, mesh_cells));
+    number(mesh_cells);
+    fill_cells(mesh_cells);
     fill_faces();
     fill_nodes();
   }
 
   template <int dim>
-  std::vector<typename Mesh<dim>::CellRecord>
-  Mesh<dim>::make_cells()
-  {
-    Lattice<dim>      lattice = make_lattice(*tree);
-    const GlobalIndex n_owned = lattice.cells.size();
-    GlobalIndex       first   = 0;
-    MPI_Exscan(&n_owned, &first, 1, DEAL_II_DOF_INDEX_MPI_TYPE, MPI_SUM, communicator());
-    const unsigned int rank = Utilities::MPI::this_mpi_process(communicator());
-
-    std::unordered_map<VertexKey, double> weight;
-    weight.reserve(lattice.cells.size() / 2);
-    std::vector<CellRecord> records(n_owned);
-    for (unsigned int group = 0; group + 1 < lattice.start.size(); ++group)
-      for (unsigned int i = lattice.start[group]; i < lattice.start[group + 1]; ++i)
-        {
-          const Leaf<dim> &leaf   = tree->leaves()[group / (2 * dim)];
-          CellRecord      &record = records[i];
-          record.id               = first + i;
-          record.owner            = rank;
-          record.leaf             = pack<dim>(leaf.origin);
-          record.face             = group % (2 * dim);
-          record.size             = tree->size(leaf);
-          for (unsigned int v = 0; v <= dim; ++v)
-            {
-              const LatticePoint<dim> &p = lattice.cells[i][v];
-              record.vertex[v]           = pack<dim>(p);
-              const auto [it, is_new] = weight.emplace(record.vertex[v], 0.);
-              if (is_new)
-                it->second = lattice_weight<dim>(*tree, p);
-              record.weight[v] = it->second;
-            }
-        }
-    start = std::move(lattice.start);
-    return records;
-  }
-
-  namespace
-  {
-    /// The 3^dim corners, midpoints and centre of a leaf. Two leaves touch
-    /// where these meet, for sizes differ by at most two.
-    template <int dim>
-    std::vector<VertexKey>
-    lattice_points(const Leaf<dim> &leaf)
-    {
-      std::vector<VertexKey> keys;
-      for (unsigned int k = 0; k < (dim == 2 ? 9u : 27u); ++k)
-        {
-          LatticePoint<dim> p    = leaf.origin;
-          unsigned int      code = k;
-          for (unsigned int d = 0; d < dim; ++d, code /= 3)
-            p[d] += (code % 3) * leaf.size / 2;
-          keys.push_back(pack<dim>(p));
-        }
-      return keys;
-    }
-
-    /// Does each owned leaf touch a leaf of another rank?
-    template <int dim>
-    std::vector<bool>
-    leaves_at_border(const Octree<dim> &octree)
-    {
-      std::unordered_set<VertexKey> beyond;
-      for (unsigned int l = octree.n_owned_leaves(); l < octree.leaves().size(); ++l)
-        for (const VertexKey key : lattice_points(octree.leaves()[l]))
-          beyond.insert(key);
-      std::vector<bool> result(octree.n_owned_leaves(), false);
-      for (unsigned int l = 0; l < result.size(); ++l)
-        for (const VertexKey key : lattice_points(octree.leaves()[l]))
-          result[l] = result[l] || beyond.count(key) > 0;
-      return result;
-    }
-
-    /// The other ranks that named the same keys. Collective.
-    std::unordered_map<VertexKey, std::vector<unsigned int>>
-    sharing_ranks(const MPI_Comm &comm, const std::unordered_set<VertexKey> &keys)
-    {
-      struct Pair
-      {
-        VertexKey    key;
-        unsigned int rank;
-      };
-      const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
-      PerRank<VertexKey> named(n_ranks);
-      for (const VertexKey key : keys)
-        named[meeting_rank(key, n_ranks)].push_back(key);
-      const PerRank<VertexKey> heard = send_and_receive(comm, named);
-
-      std::unordered_map<VertexKey, std::vector<unsigned int>> who;
-      for (unsigned int r = 0; r < n_ranks; ++r)
-        for (const VertexKey key : heard[r])
-          who[key].push_back(r);
-      PerRank<Pair> answer(n_ranks);
-      for (const auto &[key, ranks] : who)
-        for (const unsigned int r : ranks)
-          for (const unsigned int other : ranks)
-            if (other != r)
-              answer[r].push_back({key, other});
-
-      std::unordered_map<VertexKey, std::vector<unsigned int>> result;
-      for (const auto &pairs : send_and_receive(comm, answer))
-        for (const Pair &pair : pairs)
-          result[pair.key].push_back(pair.rank);
-      return result;
-    }
-  } // namespace
-
-  template <int dim>
   void
-  Mesh<dim>::exchange_ghosts(std::vector<CellRecord> &records) const
-  {
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator());
-    if (n_ranks == 1)
-      return;
-
-    // only vertices of the cells of leaves at the border can be another's too
-    const std::vector<bool>       at_border = leaves_at_border(*tree);
-    std::unordered_set<VertexKey> candidates;
-    for (unsigned int l = 0; l < at_border.size(); ++l)
-      if (at_border[l])
-        for (unsigned int i = start[2 * dim * l]; i < start[2 * dim * (l + 1)]; ++i)
-          candidates.insert(records[i].vertex.begin(), records[i].vertex.end());
-
-    const auto          sharers = sharing_ranks(communicator(), candidates);
-    PerRank<CellRecord> to_rank(n_ranks);
-    for (const CellRecord &record : records)
-      {
-        std::set<unsigned int> ranks;
-        for (const VertexKey key : record.vertex)
-          if (const auto it = sharers.find(key); it != sharers.end())
-            ranks.insert(it->second.begin(), it->second.end());
-        for (const unsigned int r : ranks)
-          to_rank[r].push_back(record);
-      }
-    for (const auto &received : send_and_receive(communicator(), to_rank))
-      records.insert(records.end(), received.begin(), received.end());
-    std::sort(records.begin(), records.end(), [](const auto &a, const auto &b) {
-      return a.id < b.id;
-    });
-  }
-
-  template <int dim>
-  void
-  Mesh<dim>::create_triangulation(const std::vector<CellRecord> &records)
-  {
-    TriangulationDescription::Description<dim, dim> description;
-    description.comm      = communicator();
-    description.settings  = TriangulationDescription::Settings::default_setting;
-    description.smoothing = Triangulation<dim>::none;
-    description.cell_infos.resize(1);
-    description.coarse_cells.resize(records.size());
-    description.cell_infos[0].resize(records.size());
-
-    std::unordered_map<VertexKey, unsigned int> vertex_index;
-    vertex_index.reserve(records.size() / 2);
-    const auto reference = ReferenceCells::get_simplex<dim>();
-    for (unsigned int i = 0; i < records.size(); ++i)
-      {
-        auto &cell = description.coarse_cells[i];
-        cell.vertices.resize(dim + 1);
-        std::array<unsigned int, dim + 1> sides;
-        for (unsigned int v = 0; v <= dim; ++v)
-          {
-            const VertexKey key = records[i].vertex[v];
-            const auto [it, is_new] =
-              vertex_index.emplace(key, description.coarse_cell_vertices.size());
-            if (is_new)
-              description.coarse_cell_vertices.push_back(
-                tree->position(unpack<dim>(key)));
-            cell.vertices[v] = it->second;
-            sides[v]         = box_sides<dim>(*tree, unpack<dim>(key));
-          }
-        description.coarse_cell_index_to_coarse_cell_id.push_back(records[i].id);
-
-        auto &info              = description.cell_infos[0][i];
-        info.id                 = CellId(records[i].id, {}).template to_binary<dim>();
-        info.subdomain_id       = records[i].owner;
-        info.level_subdomain_id = records[i].owner;
-        info.manifold_id        = numbers::flat_manifold_id;
-        info.manifold_line_ids.fill(numbers::flat_manifold_id);
-        info.manifold_quad_ids.fill(numbers::flat_manifold_id);
-        for (unsigned int f = 0; f <= dim; ++f)
-          {
-            unsigned int on = ~0u;
-            for (unsigned int v = 0; v < dim; ++v)
-              on &= sides[reference.face_to_cell_vertices(f, v, 1)];
-            if (on != 0)
-              info.boundary_ids.emplace_back(f, first_side(on));
-          }
-      }
-    triangulation.create_triangulation(description);
-  }
-
-  template <int dim>
-  void
-  Mesh<dim>::number(const std::vector<CellRecord> &records)
+  Mesh<dim>::number(const MeshCells<dim> &mesh_cells)
   {
     node_dofs.reinit(triangulation);
     node_dofs.distribute_dofs(FE_SimplexP<dim>(1));
@@ -269,33 +63,37 @@ namespace treacle
       IndexSet relevant;
       DoFTools::extract_locally_relevant_dofs(dofs, relevant);
       return std::make_shared<const Utilities::MPI::Partitioner>(
-        dofs.locally_owned_dofs(), relevant, communicator());
+        dofs.locally_owned_dofs(), relevant, comm);
     };
     nodes = make(node_dofs);
     faces = make(face_dofs);
 
-    const GlobalIndex n_owned = start.back();
-    GlobalIndex       first = 0, n_cells = 0;
-    MPI_Exscan(&n_owned, &first, 1, DEAL_II_DOF_INDEX_MPI_TYPE, MPI_SUM, communicator());
-    n_cells = Utilities::MPI::sum(n_owned, communicator());
-    IndexSet owned(n_cells), ghosts(n_cells);
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(comm);
+    const GlobalIndex  n_owned = std::count_if(mesh_cells.cells.begin(),
+                                              mesh_cells.cells.end(),
+                                              [&](const auto &cell) { return cell.owner == rank; });
+    GlobalIndex        first   = 0;
+    MPI_Exscan(&n_owned, &first, 1, DEAL_II_DOF_INDEX_MPI_TYPE, MPI_SUM, comm);
+    const GlobalIndex n_cells = Utilities::MPI::sum(n_owned, comm);
+    IndexSet          owned(n_cells), ghosts(n_cells);
     owned.add_range(first, first + n_owned);
     std::vector<GlobalIndex> ids;
-    for (const CellRecord &record : records)
-      if (!owned.is_element(record.id))
-        ids.push_back(record.id);
+    for (const auto &cell : mesh_cells.cells)
+      if (cell.owner != rank)
+        ids.push_back(cell.id);
     ghosts.add_indices(ids.begin(), ids.end());
-    cells = std::make_shared<const Utilities::MPI::Partitioner>(owned, ghosts, communicator());
+    cells = std::make_shared<const Utilities::MPI::Partitioner>(owned, ghosts, comm);
   }
 
   template <int dim>
   void
-  Mesh<dim>::fill_cells(const std::vector<CellRecord> &records)
+  Mesh<dim>::fill_cells(const MeshCells<dim> &mesh_cells)
   {
-    const unsigned int n = records.size();
+    const unsigned int n = mesh_cells.cells.size();
     cell_nodes.resize(n);
     cell_faces.resize(n);
     cell_volume.resize(n);
+    cell_number.resize(n);
     cell_size.resize(n);
     cell_dual.resize(n);
     cell_gradients.resize(n);
@@ -303,51 +101,48 @@ namespace treacle
     node_position.resize(n_nodes);
     node_key.resize(n_nodes);
     node_sides.resize(n_nodes);
+    face_side.assign(faces->locally_owned_size() + faces->n_ghost_indices(), no_side);
 
-    std::unordered_map<GlobalIndex, unsigned int> record_of;
-    record_of.reserve(n);
+    std::unordered_map<GlobalIndex, unsigned int> index_of;
+    index_of.reserve(n);
     for (unsigned int i = 0; i < n; ++i)
-      record_of[records[i].id] = i;
+      index_of[mesh_cells.cells[i].id] = i;
 
     std::array<unsigned int, dim + 1> opposite; // vertex of deal.II's face f
-    const auto reference = ReferenceCells::get_simplex<dim>();
     for (unsigned int f = 0; f <= dim; ++f)
-      {
-        opposite[f] = dim * (dim + 1) / 2;
-        for (unsigned int v = 0; v < dim; ++v)
-          opposite[f] -= reference.face_to_cell_vertices(f, v, 1);
-      }
+      opposite[f] = opposite_vertex<dim>(f);
 
     std::vector<GlobalIndex> node_ids(dim + 1), face_ids(dim + 1);
     for (const auto &cell : triangulation.active_cell_iterators())
       {
         if (cell->is_artificial())
           continue;
-        const GlobalIndex  id    = cell->id().get_coarse_cell_id();
-        const LocalIndex   local = cells->global_to_local(id);
-        const CellRecord  &r     = records[record_of.at(id)];
+        const GlobalIndex id    = cell->id().get_coarse_cell_id();
+        const LocalIndex  local = cells->global_to_local(id);
+        const auto       &from  = mesh_cells.cells[index_of.at(id)];
         typename DoFHandler<dim>::active_cell_iterator(*cell, &node_dofs)->get_dof_indices(node_ids);
         typename DoFHandler<dim>::active_cell_iterator(*cell, &face_dofs)->get_dof_indices(face_ids);
+        VertexValues<dim> weight;
         for (unsigned int v = 0; v <= dim; ++v)
           {
-            const LocalIndex node    = nodes->global_to_local(node_ids[v]);
-            cell_nodes[local][v]     = node;
-            node_key[node]           = r.vertex[v];
-            const LatticePoint<dim> p = unpack<dim>(r.vertex[v]);
-            node_position[node]      = tree->position(p);
-            node_sides[node]         = box_sides<dim>(*tree, p);
-            cell_faces[local][opposite[v]] = faces->global_to_local(face_ids[v]);
+            const LocalIndex node          = nodes->global_to_local(node_ids[v]);
+            const LocalIndex face          = faces->global_to_local(face_ids[v]);
+            const auto      &vertex        = mesh_cells.vertices[from.vertex[v]];
+            cell_nodes[local][v]           = node;
+            cell_faces[local][opposite[v]] = face;
+            node_key[node]                 = vertex.key;
+            node_position[node]            = vertex.position;
+            node_sides[node]               = vertex.walls;
+            face_side[face]                = from.wall[opposite[v]];
+            weight[v]                      = vertex.weight;
           }
         const Simplex<dim> x  = cell_vertices(local);
         cell_volume[local]    = signed_volume<dim>(x);
-        cell_size[local]      = r.size;
-        cell_dual[local]      = weighted_circumcentre<dim>(x, r.weight);
+        cell_number[local]    = from.number;
+        cell_size[local]      = from.size;
+        cell_dual[local]      = weighted_circumcentre<dim>(x, weight);
         cell_gradients[local] = basis_gradients<dim>(x);
-        if (!cell->is_locally_owned())
-          ghosts_over[{r.leaf, r.face}].push_back(local);
       }
-    for (auto &[leaf_face, list] : ghosts_over)
-      std::sort(list.begin(), list.end());
   }
 
   template <int dim>
@@ -360,14 +155,12 @@ namespace treacle
     face_area.resize(n);
     face_normal.resize(n);
     face_centre.resize(n);
-    face_dual_length.resize(n);
-    face_side.assign(n, no_side);
 
-    // cells in the order of their global index: the lower comes first
+    // cells in the order of their number: the lower comes first
     std::vector<LocalIndex> order(cell_nodes.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [&](const LocalIndex a, const LocalIndex b) {
-      return cells->local_to_global(a) < cells->local_to_global(b);
+      return cell_number[a] < cell_number[b];
     });
     for (const LocalIndex c : order)
       for (unsigned int i = 0; i <= dim; ++i)
@@ -380,14 +173,12 @@ namespace treacle
             }
           face_cells[f][0] = c;
           std::array<Point<dim>, dim> x;
-          unsigned int                sides = ~0u;
           Point<dim>                  centre;
           for (unsigned int k = 0, v = 0; v <= dim; ++v)
             if (v != i)
               {
                 face_nodes[f][k] = cell_nodes[c][v];
                 x[k]             = node_position[cell_nodes[c][v]];
-                sides &= node_sides[cell_nodes[c][v]];
                 centre += x[k++] / dim;
               }
           Tensor<1, dim> a = area_vector<dim>(x);
@@ -396,32 +187,61 @@ namespace treacle
           face_area[f]   = a.norm();
           face_normal[f] = a / face_area[f];
           face_centre[f] = centre;
-          if (sides != 0)
-            face_side[f] = first_side(sides);
         }
 
     // a ghost's outer face: its owner knows which cell is the lower
-    Vector lower = zeros(faces), length = zeros(faces);
+    Vector lower = zeros(faces);
+    for (LocalIndex f = 0; f < n_owned_faces(); ++f)
+      lower.local_element(f) = cell_number[face_cells[f][0]];
+    lower.update_ghost_values();
+    for (LocalIndex f = 0; f < n; ++f)
+      if (lower.local_element(f) != cell_number[face_cells[f][0]])
+        {
+          face_cells[f]  = {{invalid, face_cells[f][0]}};
+          face_normal[f] = -face_normal[f];
+        }
+  }
+
+  namespace
+  {
+    /// An imported mesh need not be Delaunay, and cells of one circumcircle have no
+    /// dual length at all: no dual length is shorter than this part of the distance
+    /// of the barycentres along the normal.
+    constexpr double minimum_dual_length = 1e-2;
+  } // namespace
+
+  template <int dim>
+  void
+  Mesh<dim>::measure_dual_edges()
+  {
+    const auto barycentre = [&](const LocalIndex c) {
+      Point<dim> x;
+      for (const LocalIndex node : cell_nodes[c])
+        x += node_position[node] / (dim + 1);
+      return x;
+    };
+    Vector length = zeros(faces);
     for (LocalIndex f = 0; f < n_owned_faces(); ++f)
       {
-        const Point<dim> &o   = cell_dual[face_cells[f][0]];
-        const Point<dim>  end = face_cells[f][1] == invalid ?
-                                  Point<dim>(o + ((face_centre[f] - o) * face_normal[f]) * face_normal[f]) :
-                                  cell_dual[face_cells[f][1]];
-        lower.local_element(f)  = cells->local_to_global(face_cells[f][0]);
-        length.local_element(f) = (end - o) * face_normal[f];
+        const auto           &[i, j] = face_cells[f];
+        const Tensor<1, dim> &normal = face_normal[f];
+        const Point<dim>     &o      = cell_dual[i];
+        const Point<dim>      end =
+          j == invalid ? Point<dim>(o + ((face_centre[f] - o) * normal) * normal) : cell_dual[j];
+        double &l = length.local_element(f);
+        l         = (end - o) * normal;
+        if (on_lattice || j == invalid)
+          continue;
+        const double shortest =
+          minimum_dual_length * ((barycentre(j) - barycentre(i)) * normal);
+        n_clamped_dual_lengths += l < shortest;
+        l = std::max(l, shortest);
       }
-    lower.update_ghost_values();
+    n_clamped_dual_lengths = Utilities::MPI::sum(n_clamped_dual_lengths, comm);
     length.update_ghost_values();
-    for (LocalIndex f = 0; f < n; ++f)
-      {
-        face_dual_length[f] = length.local_element(f);
-        if (lower.local_element(f) != cells->local_to_global(face_cells[f][0]))
-          {
-            face_cells[f]  = {{invalid, face_cells[f][0]}};
-            face_normal[f] = -face_normal[f];
-          }
-      }
+    face_dual_length.resize(face_cells.size());
+    for (LocalIndex f = 0; f < face_cells.size(); ++f)
+      face_dual_length[f] = length.local_element(f);
   }
 
   template <int dim>
@@ -444,17 +264,46 @@ namespace treacle
 
   template <int dim>
   void
-  Mesh<dim>::cells_over(const Leaf<dim>         &leaf,
-                        const unsigned int       face,
-                        std::vector<LocalIndex> &result) const
+  Mesh<dim>::make_tree()
   {
-    result.clear();
-    const LocalIndex l = tree->leaf_at(leaf.origin);
-    if (l != invalid && l < tree->n_owned_leaves())
-      for (unsigned int i = start[2 * dim * l + face]; i < start[2 * dim * l + face + 1]; ++i)
-        result.push_back(i);
-    else if (const auto it = ghosts_over.find({pack<dim>(leaf.origin), face}); it != ghosts_over.end())
-      result = it->second;
+    const auto corners = [&](const LocalIndex c, std::vector<Point<dim>> &x) {
+      for (const LocalIndex node : cell_nodes[c])
+        x.push_back(node_position[node]);
+    };
+    std::vector<BoundingBox<dim>> boxes;
+    std::vector<Point<dim>>       x;
+    for (LocalIndex c = 0; c < cell_nodes.size(); ++c)
+      {
+        x.clear();
+        corners(c, x);
+        boxes.emplace_back(x);
+      }
+    std::vector<LocalIndex> order(n_owned_cells());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](const LocalIndex a, const LocalIndex b) {
+      return cell_number[a] < cell_number[b];
+    });
+    std::vector<typename CellTree<dim>::WallFacet> walls;
+    for (const LocalIndex c : order)
+      for (const LocalIndex f : cell_faces[c])
+        if (face_side[f] != no_side)
+          {
+            walls.push_back({{}, c});
+            for (unsigned int k = 0; k < dim; ++k)
+              walls.back().x[k] = node_position[face_nodes[f][k]];
+          }
+    const auto ranks = Utilities::MPI::all_gather(
+      comm, treacle::covering_boxes<dim>(n_owned_cells(), corners));
+    tree = std::make_unique<const CellTree<dim>>(boxes, walls, ranks);
+    around = tree->box();
+  }
+
+  template <int dim>
+  std::vector<BoundingBox<dim>>
+  Mesh<dim>::covering_boxes() const
+  {
+    return on_lattice ? on_lattice->covering_boxes() :
+                        tree->boxes_of_rank(Utilities::MPI::this_mpi_process(comm));
   }
 
   template class Mesh<2>;

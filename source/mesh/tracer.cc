@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/base/exchange.h>
+#include <treacle/mesh/ask.h>
 #include <treacle/mesh/tracer.h>
 
 namespace treacle
@@ -9,10 +9,10 @@ namespace treacle
   template <int dim>
   void
   Tracer<dim>::evaluate_here(const Location<dim>               &location,
-                             const Point<dim>                  &x,
                              const std::vector<NodeField<dim>> &fields,
                              double                            *result) const
   {
+    const Point<dim> &x = location.point;
     const auto &nodes = mesh.cell_nodes[location.cell];
     for (unsigned int k = 0; k < fields.size(); ++k)
       {
@@ -55,45 +55,30 @@ namespace treacle
         if (location.cell == invalid)
           elsewhere.push_back(i);
         else
-          evaluate_here(location, locator.clamped(x[i]), fields, &values[i * n]);
+          evaluate_here(location, fields, &values[i * n]);
       }
-    const MPI_Comm    &comm    = mesh.communicator();
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
-    if (n_ranks == 1)
+    const MPI_Comm &comm = mesh.communicator();
+    if (Utilities::MPI::n_mpi_processes(comm) == 1)
       return values;
 
-    std::vector<Point<dim>> asked;
+    std::vector<Point<dim>>   asked;
+    std::vector<unsigned int> ranks;
     for (const unsigned int i : elsewhere)
-      asked.push_back(locator.clamped(x[i]));
-    const std::vector<unsigned int>    owner = mesh.octree().owner_ranks(asked);
-    PerRank<std::array<double, dim>>   questions(n_ranks);
-    for (unsigned int i = 0; i < asked.size(); ++i)
+      asked.push_back(x[i]);
+    const auto owners = locator.owners(asked);
+    for (unsigned int i = 0; i < owners.size(); ++i)
       {
-        std::array<double, dim> p;
-        for (unsigned int d = 0; d < dim; ++d)
-          p[d] = asked[i][d];
-        questions[owner[i]].push_back(p);
+        ranks.push_back(owners[i].rank);
+        asked[i] = owners[i].point;
       }
-    const auto      received = send_and_receive(comm, questions);
-    PerRank<double> answers(n_ranks);
-    for (unsigned int r = 0; r < n_ranks; ++r)
-      {
-        answers[r].resize(received[r].size() * n);
-        for (unsigned int i = 0; i < received[r].size(); ++i)
-          {
-            Point<dim> p;
-            for (unsigned int d = 0; d < dim; ++d)
-              p[d] = received[r][i][d];
-            const Location<dim> location = locator.locate(p);
-            AssertThrow(location.cell != invalid, ExcInternalError());
-            evaluate_here(location, p, fields, &answers[r][i * n]);
-          }
-      }
-    const auto                heard = send_and_receive(comm, answers);
-    std::vector<unsigned int> next(n_ranks, 0);
+    const std::vector<double> heard =
+      ask(comm, ranks, asked, n, [&](const Point<dim> &p, double *result) {
+        const Location<dim> location = locator.locate_here(p);
+        AssertThrow(location.cell != invalid, ExcInternalError());
+        evaluate_here(location, fields, result);
+      });
     for (unsigned int i = 0; i < elsewhere.size(); ++i)
-      for (unsigned int k = 0; k < n; ++k)
-        values[elsewhere[i] * n + k] = heard[owner[i]][next[owner[i]]++];
+      std::copy_n(&heard[i * n], n, &values[elsewhere[i] * n]);
     return values;
   }
 
@@ -119,10 +104,7 @@ namespace treacle
     std::vector<double>       k(k1.size());
     for (unsigned int i = 0; i < k.size(); ++i)
       k[i] = (2 * k1[i] + 3 * k2[i] + 4 * k3[i]) / 9;
-    std::vector<Point<dim>> y = advanced(k, dt);
-    for (Point<dim> &p : y)
-      p = locator.clamped(p);
-    return y;
+    return locator.clamped(advanced(k, dt));
   }
 
   template class Tracer<2>;

@@ -168,7 +168,7 @@ namespace treacle
     std::vector<double> values;
     for (const auto &at : SmoothLevelSet<dim>(mesh, state.phi).samples(positions(state.markers)))
       values.push_back(at.smoothness < 0.5 ? std::nan("") : at.value);
-    const NearMarkers<dim> markers(mesh.octree(), state.markers, values, reach * h);
+    const NearMarkers<dim> markers(mesh, state.markers, values, reach * h);
     Near<dim>              near;
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {

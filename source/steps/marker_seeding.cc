@@ -15,10 +15,10 @@ namespace treacle
   {
     const Mesh<dim> &mesh   = *state.mesh;
     const double     h      = mesh.finest_size();
-    const auto      &box    = mesh.octree().parameters();
+    const auto      &box    = mesh.box();
     const auto       on_box = [&, h](const Point<dim> &x) {
       for (unsigned int d = 0; d < dim; ++d)
-        if (x[d] < box.lower_corner[d] + 1e-6 * h || x[d] > box.upper_corner[d] - 1e-6 * h)
+        if (x[d] < box.lower_bound(d) + 1e-6 * h || x[d] > box.upper_bound(d) - 1e-6 * h)
           return true;
       return false;
     };
@@ -159,7 +159,7 @@ namespace treacle
         const Locator<dim> locator(mesh);
         for (const Marker<dim> &marker : state.markers)
           {
-            cells.push_back(locator.locate(marker.position).cell);
+            cells.push_back(locator.locate_here(marker.position).cell);
             count.local_element(cells.back()) += 1;
           }
         count.compress(VectorOperation::add);
@@ -207,7 +207,7 @@ namespace treacle
             });
           }
         project(seeds);
-        seeds = to_owners(mesh.octree(), seeds);
+        seeds = to_owners(mesh, seeds);
         keep_in_line(seeds);
         state.markers.insert(state.markers.end(), seeds.begin(), seeds.end());
       }
@@ -218,7 +218,7 @@ namespace treacle
       keep_in_line(std::vector<Marker<dim>> &seeds) const
       {
         const double           reach = 0.75 * mesh.finest_size();
-        const NearMarkers<dim> markers(mesh.octree(),
+        const NearMarkers<dim> markers(mesh,
                                        state.markers,
                                        std::vector<double>(state.markers.size()),
                                        reach);
@@ -252,9 +252,11 @@ namespace treacle
                 {
                   const Tensor<1, dim> &g = samples[k].gradient;
                   seeds[k].position -= samples[k].value * g / g.norm_square();
-                  seeds[k].position = Locator<dim>(mesh).clamped(seeds[k].position);
-                  seeds[k].normal   = g / g.norm();
+                  seeds[k].normal = g / g.norm();
                 }
+            const auto moved = Locator<dim>(mesh).clamped(positions(seeds));
+            for (unsigned int k = 0; k < seeds.size(); ++k)
+              seeds[k].position = moved[k];
           }
       }
 

@@ -206,8 +206,7 @@ namespace treacle
     space.n_components   = dim;
     space.n_vectors      = !stiffness.gradient.empty() ? dim : dim == 2 ? 3 : 6;
     const std::size_t n  = dim * owned_nodes.size();
-    const auto       &box = domain.mesh.octree().parameters();
-    const Point<dim>  origin = box.lower_corner + 0.5 * (box.upper_corner - box.lower_corner);
+    const Point<dim>  origin = domain.mesh.middle();
     space.vectors.assign(space.n_vectors * n, 0);
     for (unsigned int i = 0; i < owned_nodes.size(); ++i)
       {

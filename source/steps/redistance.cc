@@ -124,7 +124,7 @@ namespace treacle
           continue;
         double      &value = phi.local_element(node);
         const double kept =
-          std::abs(value) < kept_layers * mesh.finest_size() ?
+          std::abs(value) < kept_layers * mesh.surface_size() ?
             weight_of_kept(mean_gradient(mesh, state.phi, node, all_cells).mean.norm()) :
             0.;
         if (kept == 1)

@@ -153,7 +153,9 @@ namespace treacle
                         const std::vector<Marker<dim>> &markers,
                         const double                    dt)
   {
-    const Mesh<dim>              &mesh   = *state.mesh;
+    const Mesh<dim> &mesh = *state.mesh;
+    if (!mesh.lattice())
+      return state.mesh;
     const Octree<dim>            &octree = mesh.octree();
     std::vector<Point<dim>> moved =
       advection.move_surface(sample_points(extract_surface(mesh, state.phi)), dt);

@@ -31,10 +31,8 @@ namespace treacle
                       const unsigned int       frame) const
   {
     // the speed at the end of the step counts: v dt + g dt^2 = CFL h
-    const auto      &box      = domain.mesh.octree().parameters();
-    const Point<dim> middle   = box.lower_corner + 0.5 * (box.upper_corner - box.lower_corner);
     const double     v        = maximum_speed(state, domain);
-    const double     g        = domain.scene.gravity(middle, state.time).norm();
+    const double     g        = domain.scene.gravity(domain.mesh.middle(), state.time).norm();
     const double     distance = prm.cfl * domain.mesh.finest_size();
     double           dt       = prm.maximum;
     if (v + std::sqrt(v * v + 4 * g * distance) > 0)
@@ -44,6 +42,13 @@ namespace treacle
     const double left =
       std::min(frame_time(frame), domain.scene.next_switch(state.time)) - state.time;
     return left / std::max(1., std::ceil(left / dt - 1e-6));
+  }
+
+  template <int dim>
+  double
+  TimeStep<dim>::reach(const Mesh<dim> &mesh) const
+  {
+    return (prm.cfl + 3 * (mesh.surface_size() / mesh.finest_size())) * mesh.finest_size();
   }
 
   template <int dim>

@@ -73,7 +73,7 @@ write(const MPI_Comm &comm)
   State<dim> state = tests::ball_state<dim>(comm);
   if (Utilities::MPI::this_mpi_process(comm) == 0)
     state.markers = tests::ball_markers<dim>();
-  state.markers = to_owners(state.mesh->octree(), state.markers);
+  state.markers = to_owners(*state.mesh, state.markers);
   state.time    = 0.1;
   state.step       = 6;
   checkpoint<dim>(comm).write(state, {3, {}});

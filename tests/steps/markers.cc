@@ -119,7 +119,7 @@ carry(const MPI_Comm                                  &comm,
       const auto              mesh    = mesh_for_next_surface(*state, advection, markers, dt);
       errors.rebuilt += mesh != state->mesh;
       State<dim> next = advection.advance(mesh, dt, reach);
-      next.markers    = to_owners(mesh->octree(), markers);
+      next.markers    = to_owners(*mesh, markers);
       tracking.advance(next, scene, reach, volume);
       state = std::make_unique<State<dim>>(std::move(next));
     }

@@ -4,7 +4,7 @@
 #ifndef treacle_fields_marker_h
 #define treacle_fields_marker_h
 
-#include <treacle/mesh/octree.h>
+#include <treacle/mesh/locator.h>
 
 namespace treacle
 {
@@ -48,10 +48,10 @@ namespace treacle
   std::vector<Point<dim>>
   positions(const std::vector<Marker<dim>> &markers);
 
-  /// Each marker on the rank that owns the leaf it lies in. Collective.
+  /// Each marker on the rank that owns the cell it lies in. Collective.
   template <int dim>
   std::vector<Marker<dim>>
-  to_owners(const Octree<dim> &octree, const std::vector<Marker<dim>> &markers);
+  to_owners(const Mesh<dim> &mesh, const std::vector<Marker<dim>> &markers);
 } // namespace treacle
 
 #endif

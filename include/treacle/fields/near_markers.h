@@ -16,14 +16,13 @@ namespace treacle
     double      value;
   };
 
-  /// Finds the markers within a reach of points in this rank's leaves. Refers to the
-  /// octree.
+  /// Finds the markers within a reach of points in this rank's cells.
   template <int dim>
   class NearMarkers
   {
   public:
     /// @p markers of this rank, with @p values; collective.
-    NearMarkers(const Octree<dim>              &octree,
+    NearMarkers(const Mesh<dim>                &mesh,
                 const std::vector<Marker<dim>> &markers,
                 const std::vector<double>      &values,
                 const double                    reach);
@@ -35,10 +34,14 @@ namespace treacle
     const double reach; ///< m
 
   private:
+    /// Of the grid of cubes of edge reach.
+    LatticePoint<dim>
+    cube_of(const Point<dim> &x) const;
+
     void
     sort_into_cubes();
 
-    const Octree<dim>                                                    &octree;
+    const Point<dim>                                                      origin;
     std::vector<NearMarker<dim>>                                          all;
     std::unordered_map<VertexKey, std::pair<unsigned int, unsigned int>> cubes; ///< begin, end
   };

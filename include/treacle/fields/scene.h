@@ -53,9 +53,10 @@ namespace treacle
     const Point<dim> &
     upper_corner() const;
 
-    /// Does the liquid stick to this side of the box? side = 2 axis + (upper ? 1 : 0).
+    /// Does the liquid stick to this kind of wall? Sides of the box are 2 axis +
+    /// (upper ? 1 : 0); all others, see Walls, have the default condition.
     bool
-    no_slip(const unsigned int side) const;
+    no_slip(const unsigned int wall) const;
 
     unsigned int n_liquids() const;
 
@@ -138,7 +139,7 @@ namespace treacle
     check_transport(const Parameters &parameters) const;
 
     Point<dim>                lower, upper;
-    std::array<bool, 2 * dim> sticks; // per side of the box
+    std::array<bool, 2 * dim + 1> sticks; // per side of the box; the default
     Material<dim>             material;
     bool                      advected_material;
     VectorExpression<dim>     gravity_at;

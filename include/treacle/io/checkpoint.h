@@ -5,6 +5,7 @@
 #define treacle_io_checkpoint_h
 
 #include <treacle/fields/state.h>
+#include <treacle/io/checkpoint_info.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -54,11 +55,26 @@ namespace treacle
     load(const typename Octree<dim>::Parameters               &parameters,
          const std::function<unsigned int(const Leaf<dim> &)> &weight) const;
 
+    /// On a mesh from a file, which must be that of the saved state.
+    std::pair<State<dim>, Progress>
+    load(std::shared_ptr<const Mesh<dim>> imported) const;
+
     /// A new run starts: what an older one left must not be resumed.
     void
     remove() const;
 
   private:
+    /// The newest complete checkpoint, of this kind of mesh.
+    std::pair<std::string, CheckpointInfo>
+    find(const std::string &mesh_type) const;
+
+    /// From the rows of the cells of this rank, and the other files in @p directory.
+    std::pair<State<dim>, Progress>
+    load_state(std::shared_ptr<const Mesh<dim>> mesh,
+               const std::string               &directory,
+               const CheckpointInfo            &info,
+               const std::vector<double>       &rows) const;
+
     std::shared_ptr<const Octree<dim>>
     load_octree(const std::string                                    &directory,
                 const typename Octree<dim>::Parameters               &parameters,

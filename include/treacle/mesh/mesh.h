@@ -5,15 +5,14 @@
 #define treacle_mesh_mesh_h
 
 #include <treacle/geometry/simplex.h>
+#include <treacle/mesh/cell_tree.h>
 #include <treacle/mesh/face_normal_element.h>
-#include <treacle/mesh/lattice.h>
+#include <treacle/mesh/lattice_mesh.h>
 #include <treacle/mesh/node_vector.h>
 
 #include <deal.II/base/partitioner.h>
 #include <deal.II/distributed/fully_distributed_tria.h>
 #include <deal.II/dofs/dof_handler.h>
-
-#include <map>
 
 namespace treacle
 {
@@ -27,29 +26,73 @@ namespace treacle
   public:
     using Partitioner = std::shared_ptr<const Utilities::MPI::Partitioner>;
 
-    /// Collective.
+    /// On the lattice of an octree. Collective.
     explicit Mesh(std::shared_ptr<const Octree<dim>> octree);
+
+    /// From a file, see ImportedMesh. Throws a UserError on all ranks. Collective.
+    Mesh(const MPI_Comm &comm, const std::string &file);
 
     Mesh(const Mesh &) = delete;
 
+    /// Null for a mesh from a file.
+    const LatticeMesh<dim> *
+    lattice() const
+    {
+      return on_lattice.get();
+    }
+
+    /// Null for a mesh on a lattice.
+    const CellTree<dim> *
+    cell_tree() const
+    {
+      return tree.get();
+    }
+
+    /// Of a mesh on a lattice.
     const Octree<dim> &
     octree() const
     {
-      return *tree;
+      AssertThrow(on_lattice, ExcMessage("This mesh was read from a file."));
+      return on_lattice->octree();
     }
 
     const MPI_Comm &
     communicator() const
     {
-      return tree->communicator();
+      return comm;
     }
 
-    /// Leaf edge (m) of the finest level.
+    /// Around the mesh.
+    const BoundingBox<dim> &
+    box() const
+    {
+      return around;
+    }
+
+    Point<dim>
+    middle() const
+    {
+      const auto &[lower, upper] = around.get_boundary_points();
+      return lower + 0.5 * (upper - lower);
+    }
+
+    /// Leaf edge (m) of the finest level; from a file the mean cell size.
     double
     finest_size() const
     {
-      return tree->finest_size();
+      return finest;
     }
+
+    /// Size (m) of the largest cells that the surface may pass through.
+    double
+    surface_size() const
+    {
+      return largest_at_surface;
+    }
+
+    /// Boxes around what this rank owns.
+    std::vector<BoundingBox<dim>>
+    covering_boxes() const;
 
     parallel::fullydistributed::Triangulation<dim> triangulation;
     DoFHandler<dim>                                node_dofs;
@@ -57,18 +100,19 @@ namespace treacle
 
     Partitioner nodes; ///< one value a node
     Partitioner faces; ///< one value a face
-    Partitioner cells; ///< one value a cell, in an order that no partition changes
+    Partitioner cells; ///< one value a cell
 
     // -- cells --
     std::vector<std::array<LocalIndex, dim + 1>>     cell_nodes;
     std::vector<std::array<LocalIndex, dim + 1>>     cell_faces; ///< face i is opposite node i
     std::vector<double>                              cell_volume;
+    std::vector<GlobalIndex>                         cell_number; ///< in an order that no partition changes
     std::vector<double>                              cell_size; ///< edge of the leaf it stands on (m)
     std::vector<Point<dim>>                          cell_dual; ///< dual centre o
     std::vector<std::array<Tensor<1, dim>, dim + 1>> cell_gradients; ///< of the P1 basis
 
     // -- faces --
-    /// The cell of lower and of higher global index; the second is invalid on
+    /// The cell of lower and of higher number; the second is invalid on
     /// the box, the one beyond the ghost layer is invalid on a ghost's face.
     std::vector<std::array<LocalIndex, 2>>   face_cells;
     std::vector<std::array<LocalIndex, dim>> face_nodes;
@@ -76,25 +120,20 @@ namespace treacle
     std::vector<Tensor<1, dim>>              face_normal; ///< lower to higher cell, outward on the box
     std::vector<Point<dim>>                  face_centre; ///< barycentre
     std::vector<double>                      face_dual_length; ///< signed along the normal
-    std::vector<unsigned char>               face_side; ///< 2 axis + upper on the box, else no_side
-    static constexpr unsigned char           no_side = 255;
+    std::vector<unsigned char>               face_side; ///< kind of wall, see Walls, or no_side
+    static constexpr unsigned char           no_side = Walls<dim>::none;
+    /// Dual lengths that were lengthened, over all ranks; none on a lattice.
+    GlobalIndex n_clamped_dual_lengths = 0;
 
     // -- nodes --
-    std::vector<Point<dim>>    node_position;
-    std::vector<VertexKey>     node_key;
-    std::vector<unsigned char> node_sides; ///< bit 2 axis + upper: on that side of the box
+    std::vector<Point<dim>>     node_position;
+    std::vector<VertexKey>      node_key;
+    std::vector<unsigned short> node_sides; ///< bit w: on a wall of kind w
 
     /// Cells around owned node i (owned and ghost: all there are) from
     /// node_cell_start[i] to node_cell_start[i+1].
     std::vector<unsigned int> node_cell_start;
     std::vector<LocalIndex>   node_cells;
-
-    /// Cells over face f of a known leaf whose cells this rank holds.
-    /// Owned leaves, and equal neighbours below one, are complete.
-    void
-    cells_over(const Leaf<dim>   &leaf,
-               const unsigned int face,
-               std::vector<LocalIndex> &result) const;
 
     Simplex<dim>
     cell_vertices(const LocalIndex cell) const
@@ -140,33 +179,32 @@ namespace treacle
     }
 
   private:
-    struct CellRecord;
-
-    std::vector<CellRecord>
-    make_cells();
+    void
+    make(const MeshCells<dim> &mesh_cells);
 
     void
-    exchange_ghosts(std::vector<CellRecord> &records) const;
+    number(const MeshCells<dim> &mesh_cells);
 
     void
-    create_triangulation(const std::vector<CellRecord> &records);
-
-    void
-    number(const std::vector<CellRecord> &records);
-
-    void
-    fill_cells(const std::vector<CellRecord> &records);
+    fill_cells(const MeshCells<dim> &mesh_cells);
 
     void
     fill_faces();
 
     void
+    measure_dual_edges();
+
+    void
     fill_nodes();
 
-    std::shared_ptr<const Octree<dim>> tree;
-    std::vector<unsigned int>          start; ///< of the lattice's owned leaves
-    /// Ghost cells by the leaf they stand on, and its face.
-    std::map<std::pair<VertexKey, unsigned int>, std::vector<LocalIndex>> ghosts_over;
+    void
+    make_tree();
+
+    const MPI_Comm                          comm;
+    std::unique_ptr<const LatticeMesh<dim>> on_lattice;
+    std::unique_ptr<const CellTree<dim>>    tree;
+    BoundingBox<dim>                        around;
+    double                                  finest, largest_at_surface;
   };
 } // namespace treacle
 

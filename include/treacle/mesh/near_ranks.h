@@ -4,9 +4,7 @@
 #ifndef treacle_mesh_near_ranks_h
 #define treacle_mesh_near_ranks_h
 
-#include <treacle/mesh/octree.h>
-
-#include <deal.II/base/bounding_box.h>
+#include <treacle/mesh/mesh.h>
 
 namespace treacle
 {
@@ -16,7 +14,14 @@ namespace treacle
   {
   public:
     /// Collective. @p margin in m.
-    NearRanks(const Octree<dim> &octree, const double margin);
+    NearRanks(const Mesh<dim> &mesh, const double margin)
+      : rank(Utilities::MPI::this_mpi_process(mesh.communicator()))
+    {
+      std::vector<BoundingBox<dim>> mine = mesh.covering_boxes();
+      for (BoundingBox<dim> &box : mine)
+        box.extend(margin);
+      boxes = Utilities::MPI::all_gather(mesh.communicator(), mine);
+    }
 
     /// Call @p visit with each other rank that may have a cell near @p around.
     template <typename Visit>
@@ -38,7 +43,7 @@ namespace treacle
 
   private:
     const unsigned int                         rank;
-    std::vector<std::vector<BoundingBox<dim>>> boxes; ///< of each rank's leaves
+    std::vector<std::vector<BoundingBox<dim>>> boxes; ///< of each rank's cells
   };
 } // namespace treacle
 

@@ -22,7 +22,7 @@ namespace treacle
     const Vector          *correction = nullptr;
   };
 
-  /// Follows paths and evaluates node fields anywhere in the box: what lies on
+  /// Follows paths and evaluates node fields anywhere in the mesh: what lies on
   /// another rank is asked of that rank. All members are collective, and all
   /// vectors must have up-to-date ghosts.
   template <int dim>
@@ -34,8 +34,8 @@ namespace treacle
       , locator(mesh)
     {}
 
-    /// Values of n fields at each point: [point * n + field]. Points beyond the
-    /// box are moved to it.
+    /// Values of n fields at each point: [point * n + field]. Points outside
+    /// of the mesh are moved to it.
     std::vector<double>
     evaluate(const std::vector<Point<dim>>     &x,
              const std::vector<NodeField<dim>> &fields) const;
@@ -50,7 +50,6 @@ namespace treacle
   private:
     void
     evaluate_here(const Location<dim>               &location,
-                  const Point<dim>                  &x,
                   const std::vector<NodeField<dim>> &fields,
                   double                            *result) const;
 

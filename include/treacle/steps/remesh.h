@@ -27,9 +27,9 @@ namespace treacle
                const Scene<dim>                       &scene);
 
   /// The mesh for the surface after dt: the old one while the surface stays well
-  /// inside its finest leaves, else a new one around it. @p markers are those after dt.
-  /// Emitters that have not stopped are surrounded by finest leaves as the surface
-  /// is. Collective.
+  /// inside its finest leaves, else a new one around it; from a file always the old one.
+  /// @p markers are those after dt. Emitters that have not stopped are surrounded by
+  /// finest leaves as the surface is. Collective.
   template <int dim>
   std::shared_ptr<const Mesh<dim>>
   mesh_for_next_surface(const State<dim>               &state,

@@ -34,6 +34,10 @@ namespace treacle
     double
     next(const State<dim> &state, const LiquidDomain<dim> &domain, const unsigned int frame) const;
 
+    /// How far from the surface velocity and distance must be known for a step (m).
+    double
+    reach(const Mesh<dim> &mesh) const;
+
     double
     frame_time(const unsigned int frame) const
     {
