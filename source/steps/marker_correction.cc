@@ -18,6 +18,7 @@ namespace treacle
     const std::vector<Point<dim>> to   = tracer.trace(from, velocity, dt);
 
     std::vector<NodeVector<dim>> gradients;
+    gradients.reserve(dim); // a vector of them that grows would lose their ghosts
     for (const Vector &component : velocity.component)
       gradients.push_back(nodal_gradient(mesh, component));
     std::vector<NodeField<dim>> fields;

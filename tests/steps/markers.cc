@@ -101,7 +101,7 @@ carry(const MPI_Comm                                  &comm,
   state->phi = exact(*state->mesh);
   redistance(*state, reach);
   tracking.reseed(*state, scene);
-  const double volume = liquid_volume(*state, scene);
+  const double volume = liquid_volume(*state->mesh, state->phi, scene, state->time);
 
   Errors             errors{0, 0, 0, 0, 0, 0};
   const unsigned int n =
@@ -114,9 +114,9 @@ carry(const MPI_Comm                                  &comm,
         state->v.set(node, test.velocity(state->mesh->node_position[node], state->time + 0.5 * dt));
       state->v.update_ghost_values();
       const LiquidDomain<dim> domain(*state, scene, 0.01);
-      const Advection<dim>    advection(*state, domain);
+      const Advection<dim>    advection(prm.advection, *state, domain);
       const auto              markers = advection.move_markers(dt);
-      const auto              mesh    = mesh_for_next_surface(*state, advection, markers, dt);
+      const auto              mesh    = mesh_for_next_surface(*state, scene, advection, markers, dt);
       errors.rebuilt += mesh != state->mesh;
       State<dim> next = advection.advance(mesh, dt, reach);
       next.markers    = to_owners(*mesh, markers);
@@ -133,7 +133,7 @@ carry(const MPI_Comm                                  &comm,
       errors.shape += liquid_moments<dim>(x, a, b).volume + liquid_moments<dim>(x, b, a).volume;
     }
   errors.shape   = Utilities::MPI::sum(errors.shape, comm) / volume;
-  errors.volume  = liquid_volume(*state, scene) / volume - 1;
+  errors.volume  = liquid_volume(*state->mesh, state->phi, scene, state->time) / volume - 1;
   errors.markers = Utilities::MPI::sum<unsigned int>(state->markers.size(), comm);
   return errors;
 }
@@ -165,13 +165,8 @@ check(const MPI_Comm &comm, const std::string &name, const unsigned int level, c
       tracking.method            = method;
       tracking.volume_correction = false;
       const Errors e             = carry<dim>(comm, name, level, 2, tracking, part);
-      // near edges and thin parts 1, 2 and 3 ranks differ in the second digit
-      const auto size_of = [](const double x) {
-        return x < 2e-4 ? "2e-4" : x < 2e-3 ? "2e-3" : x < 1e-2 ? "1e-2" : x < 0.1 ? "0.1" : "1";
-      };
-      out() << dim << "D, " << name << ", " << method << ": error of the volume below "
-            << size_of(std::abs(e.volume)) << ", of the shape below " << size_of(e.shape)
-            << std::endl;
+      out() << dim << "D, " << name << ", " << method << ": volume " << std::setprecision(4)
+            << e.volume << ", shape " << e.shape << std::endl;
     }
 }
 
