@@ -9,6 +9,20 @@
 
 namespace treacle
 {
+  namespace
+  {
+    /// Does the surface pass through cells of this rank?
+    template <int dim>
+    bool
+    cuts_cells(const State<dim> &state)
+    {
+      for (LocalIndex c = 0; c < state.mesh->n_owned_cells(); ++c)
+        if (surface_facets<dim>(state.mesh->values(c, state.phi)).n > 0)
+          return true;
+      return false;
+    }
+  } // namespace
+
   template <int dim>
   void
   remove_stray_markers(State<dim> &state, const Scene<dim> &scene)
@@ -46,7 +60,9 @@ namespace treacle
     const MPI_Comm    &comm  = mesh.communicator();
     const unsigned int lost  = Utilities::MPI::sum(n_lost, comm);
     const unsigned int total = Utilities::MPI::sum<unsigned int>(state.markers.size(), comm);
-    require(2 * lost <= total,
+    // where nothing is left, as of a film that withered, there is nothing to follow
+    const bool has_surface = Utilities::MPI::max(cuts_cells(state) ? 1 : 0, comm) == 1;
+    require(2 * lost <= total || !has_surface,
             "Surface tracking: " + std::to_string(lost) + " of " + std::to_string(total) +
               " markers are further than a leaf from the surface at t = " +
               Utilities::to_string(state.time) +
