@@ -99,8 +99,6 @@ namespace
     for (const std::string preconditioner : {"amg", "jacobi"})
       for (const double ratio : {1., 1e2, 1e4})
         {
-          if (preconditioner == "amg" && mapping == "face coupled")
-            continue; // the same as jacobi
           prm.viscosity.solver.preconditioner = preconditioner;
           print(state, fit, prm.viscosity, ratio);
         }

@@ -11,6 +11,7 @@ namespace treacle
     : system(system)
     , H(system.domain, LeastSquares<dim>::Weight::mass)
     , mass(system.domain.mesh.faces)
+    , inverse_mass_of_faces(mass)
     , assembled(system.assemble(NodeSystem<dim>::Mass::none, stiffness))
     , v(assembled.shift)
     , force(assembled.shift)
@@ -18,7 +19,10 @@ namespace treacle
     const LiquidDomain<dim> &domain = system.domain;
     for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
       if (domain.is_liquid_face(f))
-        mass.local_element(f) = domain.face_mass[f];
+        {
+          mass.local_element(f)                  = domain.face_mass[f];
+          inverse_mass_of_faces.local_element(f) = 1 / domain.face_mass[f];
+        }
   }
 
   template <int dim>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/steps/face_coupled.h>
+#include <treacle/steps/auxiliary_space.h>
 #include <treacle/steps/viscosity.h>
 
 namespace treacle
@@ -68,8 +68,8 @@ namespace treacle
     prm.leave_subsection();
     solver.add_parameters(prm,
                           "Viscosity",
-                          " The mapping face coupled has no matrix to make the first two from: "
-                          "they stand for the diagonal there.");
+                          " The mapping face coupled takes amg as a preconditioner of MINRES at the "
+                          "nodes, and incomplete Cholesky as the diagonal.");
   }
 
   template <int dim>
@@ -166,9 +166,15 @@ namespace treacle
     for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
       if (domain.is_liquid_face(f))
         u.local_element(f) = state.u.local_element(f);
-    const Vector       b = face_coupled.right_hand_side(u);
-    const LinearSolver solver(parameters, "Viscosity", matrix, preconditioner);
-    const unsigned int iterations = solver.solve(u, b);
+    unsigned int iterations = 0;
+    if (prm.solver.preconditioner == "amg")
+      iterations = AuxiliarySpace<dim>(face_coupled, stiffness, prm.solver).solve(u);
+    else
+      {
+        const Vector b = face_coupled.right_hand_side(u);
+        iterations =
+          LinearSolver(parameters, "Viscosity", matrix, preconditioner).solve(u, b);
+      }
 
     for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
       if (domain.is_liquid_face(f))

@@ -3,12 +3,13 @@
 
 // The face-coupled operator on a pool with a solid, one wall without slip and others with:
 // H and its transpose, symmetry, positive definiteness; a common motion of liquid, walls
-// and solid, prescribed values not zero, that the viscous step must leave alone.
+// and solid, prescribed values not zero, that the viscous step must leave alone. The auxiliary
+// space: its system and preconditioner, and the same solution as with the diagonal.
 
 #include "../tests.h"
 #include "body.h"
 
-#include <treacle/steps/face_coupled.h>
+#include <treacle/steps/auxiliary_space.h>
 
 using namespace tests;
 
@@ -70,6 +71,52 @@ namespace
 
   template <int dim>
   void
+  check_auxiliary_space(Body<dim> &body, const std::string &stress_model)
+  {
+    const LiquidDomain<dim>            &domain = body.domain;
+    typename NodeSystem<dim>::Stiffness stiffness;
+    auto &weight = stress_model == "full" ? stiffness.strain : stiffness.gradient;
+    for (LocalIndex c = 0; c < domain.liquid_volume.size(); ++c)
+      weight.push_back(1e3 * domain.liquid_volume[c]);
+    const FaceCoupled<dim>         A(body.fit.system, stiffness);
+    const LinearSolver::Parameters prm{"amg", 1e-9, 5000};
+    const AuxiliarySpace<dim>      space(A, stiffness, prm);
+
+    treacle::Vector    p = space.zero(), q(p), Bp(p), Bq(p);
+    const unsigned int n = p.locally_owned_size() / 2;
+    for (unsigned int i = 0; i < 2 * n; ++i)
+      {
+        const Point<dim> &x  = domain.mesh.node_position[A.H.nodes()[i % n / dim]];
+        p.local_element(i) = noise(x, 61 + i / n + i % dim);
+        q.local_element(i) = noise(x, 83 + i / n + i % dim);
+      }
+    const auto difference = [&] { return std::abs(q * Bp - p * Bq) / (q.l2_norm() * Bp.l2_norm()); };
+    space.vmult(Bp, p);
+    space.vmult(Bq, q);
+    report("system, q·Cp - p·Cq, relative", difference());
+    space.precondition(Bp, p);
+    space.precondition(Bq, q);
+    report("preconditioner, q·Bp - p·Bq, relative", difference());
+    out() << "  p·Bp positive: " << (p * Bp > 0 && q * Bq > 0) << std::endl;
+
+    treacle::Vector       u = face_noise(domain, 7), w(u);
+    const treacle::Vector d = A.inverse_diagonal();
+    const LinearSolver    jacobi(
+      prm,
+      "Viscosity",
+      [&](treacle::Vector &y, const treacle::Vector &x) { A.vmult(y, x); },
+      [&](treacle::Vector &z, const treacle::Vector &r) {
+        z = r;
+        z.scale(d);
+      });
+    jacobi.solve(w, A.right_hand_side(w));
+    space.solve(u);
+    w -= u;
+    out() << "  both solutions agree to 1e-5: " << (w.l2_norm() < 1e-5 * u.l2_norm()) << std::endl;
+  }
+
+  template <int dim>
+  void
   check_common_motion(Body<dim> &body)
   {
     Tensor<1, dim> velocity;
@@ -111,6 +158,7 @@ namespace
                    1);
     out() << dim << "D, " << stress_model << std::endl;
     check_operator(body, stress_model);
+    check_auxiliary_space(body, stress_model);
     check_common_motion(body);
   }
 } // namespace

@@ -38,11 +38,26 @@ namespace treacle
     Vector
     inverse_diagonal() const;
 
+    /// M_f^-1, 0 where a face is no unknown.
+    const Vector &
+    inverse_mass() const
+    {
+      return inverse_mass_of_faces;
+    }
+
+    /// -dt D, and what prescribed components contribute to the forces.
+    const typename NodeSystem<dim>::Assembled &
+    stiffness() const
+    {
+      return assembled;
+    }
+
     const NodeSystem<dim>   &system;
     const LeastSquares<dim>  H;
 
   private:
     Vector                              mass;      ///< M_f
+    Vector                              inverse_mass_of_faces;
     typename NodeSystem<dim>::Assembled assembled; ///< -dt D
     mutable Vector                      v, force;  ///< scratch: unknowns of nodes
   };

@@ -63,6 +63,13 @@ namespace treacle
     unsigned int
     solve(Vector &x, const Vector &b) const;
 
+    /// z = the preconditioner times r.
+    void
+    precondition(Vector &z, const Vector &r) const
+    {
+      preconditioner(z, r);
+    }
+
   private:
     const Parameters  prm;
     const std::string name;
