@@ -130,7 +130,8 @@ namespace treacle
         const Tensor<1, dim> part =
           v.value(filled_nodes[i]) / (source_start[i + 1] - source_start[i]);
         for (unsigned int k = source_start[i]; k < source_start[i + 1]; ++k)
-          v.set(sources[k], v.value(sources[k]) + part);
+          for (unsigned int d = 0; d < dim; ++d)
+            v.component[d].local_element(sources[k]) += part[d];
         v.set(filled_nodes[i], Tensor<1, dim>());
       }
     for (unsigned int d = 0; d < dim; ++d)

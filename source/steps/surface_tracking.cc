@@ -88,16 +88,17 @@ namespace treacle
       {
         const double area = surface_area(state);
         if (area == 0)
-          return;
+          break;
         const double wanted = offset + (liquid_volume(*state.mesh, state.phi, scene, state.time) - volume) / area;
         const double change = std::min(std::max(wanted, -largest), largest) - offset;
         offset += change;
         state.phi.zero_out_ghost_values();
         state.phi.add(change);
         state.phi.update_ghost_values();
-        for (Marker<dim> &marker : state.markers)
-          marker.position -= change * marker.normal;
       }
+    for (Marker<dim> &marker : state.markers)
+      marker.position -= offset * marker.normal;
+    state.markers = to_owners(*state.mesh, state.markers);
   }
 
   template class SurfaceTracking<2>;

@@ -166,9 +166,11 @@ check_cut(const MPI_Comm &comm, const double offset, const bool is_tilted)
   normal /= normal.norm();
   typename Scene<dim>::Parameters parameters = tests::ball_scene<dim>();
   parameters.solids.resize(1);
-  parameters.solids[0].shape  = "half space";
-  parameters.solids[0].normal = normal;
-  parameters.solids[0].centre = diagonal_point<dim>(0.5) - offset * normal;
+  typename Shape<dim>::Parameters &solid = parameters.solids[0].shape;
+
+  solid.shape  = "half space";
+  solid.normal = normal;
+  solid.centre = diagonal_point<dim>(0.5) - offset * normal;
   const Scene<dim> scene(parameters);
   const State<dim> state = tests::ball_state<dim>(comm);
   SurfaceWriter<dim>({"ply"}).write(state, LiquidDomain<dim>(state, scene, 0.01), "out", 1);
@@ -179,7 +181,7 @@ check_cut(const MPI_Comm &comm, const double offset, const bool is_tilted)
   if (first.empty())
     {
       first = bytes;
-      describe_cut<dim>(read_ply<dim>(bytes), parameters.solids[0].centre, normal);
+      describe_cut<dim>(read_ply<dim>(bytes), solid.centre, normal);
     }
   tests::out() << (bytes == first ? "same file" : "DIFFERENT FILE") << std::endl;
 }
