@@ -289,9 +289,9 @@ namespace treacle
     }();
     {
       const auto section = timing.section("surface");
+      next.markers = to_owners(*mesh, markers);
       info.emitted = emit(next, scene, dt);
       volume += info.emitted;
-      next.markers       = to_owners(*mesh, markers);
       tracking.advance(next, scene, reach, volume);
       if (next.material)
         extend_material(next, n_layers());
