@@ -77,9 +77,9 @@ namespace
     typename NodeSystem<dim>::Stiffness stiffness;
     auto &weight = stress_model == "full" ? stiffness.strain : stiffness.gradient;
     for (LocalIndex c = 0; c < domain.liquid_volume.size(); ++c)
-      weight.push_back(1e3 * domain.liquid_volume[c]);
+      weight.push_back(30 * domain.liquid_volume[c]);
     const FaceCoupled<dim>         A(body.fit.system, stiffness);
-    const LinearSolver::Parameters prm{"amg", 1e-9, 5000};
+    const LinearSolver::Parameters prm{"amg", 1e-8, 1000};
     const AuxiliarySpace<dim>      space(A, stiffness, prm);
 
     treacle::Vector    p = space.zero(), q(p), Bp(p), Bq(p);
