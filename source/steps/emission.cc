@@ -50,7 +50,8 @@ namespace treacle
       return 0;
 
     // what was liquid before, in an emitter and beside it: what came from inside the
-    // emitter, and what was there already. Paths that lead back through a wall bring none
+    // emitter, and what was there already. Paths that lead back through a wall bring none:
+    // what sticks to the ceiling beside an emitter must not become a second one
     const Mesh<dim> &mesh   = *state.mesh;
     const double     margin = 2 * mesh.finest_size();
     Vector           before = state.phi;
@@ -62,16 +63,21 @@ namespace treacle
         const Point<dim> &x        = mesh.node_position[node];
         const double      distance = scene.emitter_distance(x, time);
         double           &phi      = state.phi.local_element(node);
-        const double      advected = phi;
-        phi                        = std::min(advected, distance);
-        before.local_element(node) = phi;
         if (distance < margin)
           keep_error(error, [&] {
-            const Point<dim> from = x - dt * scene.emitter_velocity(x, time);
+            const Point<dim> from  = x - dt * scene.emitter_velocity(x, time);
+            const double     depth = depth_beyond(from, scene, time);
             before.local_element(node) =
-              std::max(std::min(advected, scene.emitter_distance(from, time)),
-                       depth_beyond(from, scene, time));
+              std::max(std::min(phi, scene.emitter_distance(from, time)), depth);
+            if (depth > 0)
+              phi = std::max(phi, depth);
+            phi = std::min(phi, distance);
           });
+        else
+          {
+            phi                        = std::min(phi, distance);
+            before.local_element(node) = phi;
+          }
       }
     throw_first(mesh.communicator(), error);
     before.update_ghost_values();

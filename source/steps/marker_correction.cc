@@ -154,9 +154,11 @@ namespace treacle
           sum += w;
           residual += w * m->value;
         }
-      if (opposed.empty() && is_smooth)
-        return old - residual / sum;
-      return distance_from_sheets(x, old, same, opposed, h);
+      const double wanted = opposed.empty() && is_smooth ?
+                              old - residual / sum :
+                              distance_from_sheets(x, old, same, opposed, h);
+      // a lone marker far away must not have its way with a node
+      return old + std::min(sum, 1.) * (wanted - old);
     }
   } // namespace
 

@@ -6,6 +6,7 @@
 
 #include "run_scene.h"
 
+#include <treacle/io/measures.h>
 #include <treacle/steps/redistance.h>
 #include <treacle/steps/remesh.h>
 
@@ -46,7 +47,9 @@ namespace tests
     {
       prm.mesh.lower_corner = scene.lower_corner();
       prm.mesh.upper_corner = scene.upper_corner();
-      State<dim>       result(initial_mesh<dim>(comm, prm.mesh, scene));
+      State<dim>       result(prm.imported.is_imported() ?
+                                std::make_shared<const Mesh<dim>>(comm, prm.imported.file) :
+                                initial_mesh<dim>(comm, prm.mesh, scene));
       const Mesh<dim> &mesh = *result.mesh;
       for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
         result.phi.local_element(node) = scene.liquid_distance(mesh.node_position[node]);
@@ -55,6 +58,56 @@ namespace tests
       return result;
     }
   };
+
+  struct Loss
+  {
+    double angular_momentum, kinetic_energy; ///< relative
+  };
+
+  /// Parameters of a free body that rotates and moves as a rigid one (case A1).
+  template <int dim>
+  std::string
+  rigid_rotation(const std::string &mapping)
+  {
+    return std::string("subsection Material\nset Viscosity = 1000\nend\n"
+                       "subsection Liquid 1\nset Radius = 0.3\nset Centre = ") +
+           (dim == 2 ? "0.503, 0.491\nset Velocity = 0.3 - (y - 0.491); 0.2 + (x - 0.503)" :
+                       "0.503, 0.491, 0.512\nset Velocity = 0.3 - (y - 0.491) + 0.5 * (z - 0.512); "
+                       "0.2 + (x - 0.503); -0.5 * (x - 0.503)") +
+           "\nend\nsubsection Viscosity\nset Mapping = " + mapping + "\nend\n" + tolerance("1e-13");
+  }
+
+  /// What one viscous step takes from the initial velocity. Collective.
+  template <int dim>
+  Loss
+  lost_by_viscosity(Body<dim> &body)
+  {
+    body.set_velocity([&](const Point<dim> &x) { return body.scene.initial_velocity(x); });
+    body.fit.solve(body.state.u, body.state.v);
+    const Measures<dim> before = measure(body.state, body.domain);
+    Viscosity<dim>(body.prm.viscosity).advance(body.state, body.fit, 0.01);
+    const Measures<dim> after  = measure(body.state, body.domain);
+    double              change = 0, size = 0;
+    for (unsigned int k = 0; k < Motion<dim>::n_rotations; ++k)
+      {
+        change += std::pow(after.of_faces.angular[k] - before.of_faces.angular[k], 2);
+        size += std::pow(before.of_faces.angular[k], 2);
+      }
+    return {std::sqrt(change / size),
+            std::abs(after.of_faces.kinetic_energy / before.of_faces.kinetic_energy - 1)};
+  }
+
+  /// For a person, who asks for a fine mesh.
+  template <int dim>
+  void
+  print(const Body<dim> &body, const std::string &mapping, const Loss &loss)
+  {
+    const Mesh<dim> &mesh = *body.state.mesh;
+    if (Utilities::MPI::this_mpi_process(mesh.communicator()) == 0)
+      std::cout << dim << "D, " << mapping << ", " << mesh.cells->size()
+                << " cells: angular momentum lost " << loss.angular_momentum
+                << ", kinetic energy " << loss.kinetic_energy << std::endl;
+  }
 
   /// The subsection of a mesh that is two levels coarser away from the surface.
   inline std::string

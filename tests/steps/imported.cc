@@ -8,9 +8,7 @@
 
 #include "../mesh/mesh_files.h"
 #include "../tests.h"
-#include "run_scene.h"
-
-#include <treacle/io/measures.h>
+#include "body.h"
 
 using namespace tests;
 
@@ -82,46 +80,11 @@ template <int dim>
 void
 check_rotation(const MPI_Comm &comm, const unsigned int n, const std::string &mapping)
 {
-  const std::string text =
-    write_mesh<dim>(comm, n, false) + "subsection Material\nset Viscosity = 1000\nend\n"
-    "subsection Liquid 1\nset Radius = 0.3\nset Centre = " +
-    (dim == 2 ? "0.503, 0.491\nset Velocity = 0.3 - (y - 0.491); 0.2 + (x - 0.503)" :
-                "0.503, 0.491, 0.512\nset Velocity = 0.3 - (y - 0.491) + 0.5 * (z - 0.512); "
-                "0.2 + (x - 0.503); -0.5 * (x - 0.503)") +
-    "\nend\nsubsection Viscosity\nset Mapping = " + mapping + "\nend\n" + tolerance("1e-13");
-  const typename Simulator<dim>::Parameters prm = parse<dim>(text, 0);
-  const Scene<dim>                          scene(prm.scene);
-  State<dim>       state(std::make_shared<const Mesh<dim>>(comm, prm.imported.file));
-  const Mesh<dim> &mesh = *state.mesh;
-  for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-    state.phi.local_element(node) = scene.liquid_distance(mesh.node_position[node]);
-  state.phi.update_ghost_values();
-  for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
-    state.u.local_element(f) = scene.initial_velocity(mesh.face_centre[f]) * mesh.face_normal[f];
-  state.u.update_ghost_values();
-
-  const LiquidDomain<dim> domain(state, scene, 0.01);
-  const FaceFit<dim>      fit(prm.face_fit, domain);
-  fit.solve(state.u, state.v);
-  const Measures<dim> before = measure(state, domain);
-  Viscosity<dim>(prm.viscosity).advance(state, fit, 0.01);
-  const Measures<dim> after = measure(state, domain);
-
-  double change = 0, size = 0;
-  for (unsigned int k = 0; k < Motion<dim>::n_rotations; ++k)
-    {
-      change += std::pow(after.of_faces.angular[k] - before.of_faces.angular[k], 2);
-      size += std::pow(before.of_faces.angular[k], 2);
-    }
-  const double angular = std::sqrt(change / size);
-  const double energy =
-    std::abs(after.of_faces.kinetic_energy / before.of_faces.kinetic_energy - 1);
-  std::ostringstream figures;
-  figures << dim << "D, " << mapping << ", " << mesh.cells->size()
-          << " cells: angular momentum lost " << angular << ", kinetic energy " << energy;
-  say(comm, figures.str());
+  Body<dim>  body(comm, write_mesh<dim>(comm, n, false) + rigid_rotation<dim>(mapping));
+  const Loss loss = lost_by_viscosity(body);
+  print(body, mapping, loss);
   out() << dim << "D rotation, " << mapping << ": "
-        << (angular < 1e-10 && energy < 1e-10 ? "kept" : "LOST") << std::endl;
+        << (loss.angular_momentum < 1e-10 && loss.kinetic_energy < 1e-10 ? "kept" : "LOST") << std::endl;
 }
 
 int
