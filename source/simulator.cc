@@ -135,7 +135,7 @@ namespace treacle
         phi         = scene.liquid_distance(mesh.node_position[node]);
         if (!std::isfinite(phi) && error.empty())
           error = "The Expression of a liquid is not finite at x = (" +
-                  Utilities::to_string(mesh.node_position[node][0]) + ", ...): mend it.";
+                  digits(mesh.node_position[node][0]) + ", ...): mend it.";
       }
     throw_first(comm, error);
     state->phi.update_ghost_values();
@@ -180,7 +180,7 @@ namespace treacle
     frame                   = progress.frame;
     require(std::abs(time_step.frame_time(frame) - state->time) <= 1e-9 * state->time,
             "Frame interval: it must be the one of the run that is resumed, for frame " +
-              std::to_string(frame) + " is at t = " + Utilities::to_string(state->time) + " s.");
+              std::to_string(frame) + " is at t = " + digits(state->time) + " s.");
     require(state->material.has_value() == scene.has_advected_material(),
             "Material/Transport: it must be the one of the run that is resumed.");
     volume                  = progress.scalars.at("volume");
@@ -190,7 +190,7 @@ namespace treacle
     statistics = std::make_unique<Statistics<dim>>(comm, prm.output_directory);
     statistics->resume(state->step);
     write_parameters();
-    log->line("resumed at t = " + Utilities::to_string(state->time) + " s, frame " +
+    log->line("resumed at t = " + digits(state->time) + " s, frame " +
               std::to_string(frame));
   }
 
@@ -261,10 +261,8 @@ namespace treacle
   {
     const Mesh<dim> &mesh = *state->mesh;
     if (!imported)
-      return "leaf edge " + Utilities::to_string(mesh.finest_size()) + " m";
-    char size[32];
-    std::snprintf(size, sizeof size, "%.4g", mesh.finest_size());
-    return "mesh " + prm.imported.file + " of mean size " + size + " m, " +
+      return "leaf edge " + digits(mesh.finest_size()) + " m";
+    return "mesh " + prm.imported.file + " of mean size " + digits(mesh.finest_size()) + " m, " +
            std::to_string(mesh.n_clamped_dual_lengths) + " of " +
            std::to_string(mesh.faces->size()) + " dual lengths clamped";
   }

@@ -36,8 +36,8 @@ namespace treacle
           require(std::abs(edge / s - n[d]) < 1e-6,
                   "Domain: cubes cannot tile the box. With Mesh/Root cells = " +
                     std::to_string(prm.root_cells) + " a root cube has the edge " +
-                    Utilities::to_string(s) + " m, and edge " + std::to_string(d + 1) +
-                    " of the box is " + Utilities::to_string(edge / s) +
+                    digits(s) + " m, and edge " + std::to_string(d + 1) +
+                    " of the box is " + digits(edge / s) +
                     " cubes long. Change the corners, or raise Root cells until every "
                     "edge is a whole number of cubes.");
         }

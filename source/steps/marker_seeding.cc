@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/exceptions.h>
 #include <treacle/base/exchange.h>
 #include <treacle/fields/near_markers.h>
 #include <treacle/fields/surface.h>
@@ -65,7 +66,7 @@ namespace treacle
     require(2 * lost <= total || !has_surface,
             "Surface tracking: " + std::to_string(lost) + " of " + std::to_string(total) +
               " markers are further than a leaf from the surface at t = " +
-              Utilities::to_string(state.time) +
+              digits(state.time) +
               " s. Lower Maximum CFL number or Maximum time step, or raise Mesh/Surface level.");
     state.markers = std::move(kept);
   }

@@ -6,6 +6,7 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -18,6 +19,15 @@ namespace treacle
   public:
     using std::runtime_error::runtime_error;
   };
+
+  /// A number for people, with six digits.
+  inline std::string
+  digits(const double x)
+  {
+    std::ostringstream text;
+    text << x;
+    return text.str();
+  }
 
   /// Run @p evaluate on this rank; the first message of a UserError is kept, for
   /// throw_first() to throw on all ranks.
