@@ -52,6 +52,15 @@ namespace treacle
   {
     const LiquidDomain<dim>    &domain = system.domain;
     const auto                 &nodes  = face_coupled.H.nodes();
+    std::vector<Tensor<2, dim>> block(domain.mesh.node_position.size());
+    // faces of ghosts too: all that touch an owned node are known
+    for (LocalIndex f = 0; f < domain.mesh.face_nodes.size(); ++f)
+      if (domain.is_liquid_face(f))
+        for (const LocalIndex node : domain.mesh.face_nodes[f])
+          block[node] +=
+            domain.face_mass[f] / dim *
+            outer_product(domain.mesh.face_normal[f], domain.mesh.face_normal[f]);
+
     stiff.copy_from(*face_coupled.stiffness().matrix);
     m.resize(nodes.size());
     inverse_m.resize(nodes.size());
@@ -59,19 +68,26 @@ namespace treacle
       n > 0 ? fit.matrix->locally_owned_range_indices().nth_index_in_set(0) : 0;
     for (unsigned int i = 0; i < nodes.size(); ++i)
       {
-        const GlobalIndex row = first + dim * i;
-        for (unsigned int k = 0; k < dim; ++k)
-          for (unsigned int l = 0; l < dim; ++l)
-            m[i][k][l] = dim * fit.matrix->el(row + k, row + l);
-        // few faces may leave a direction without mass
-        const double floor = 1e-2 * (domain.node_mass[nodes[i]] + trace(m[i]) / dim);
+        m[i] = block[nodes[i]];
+        // few faces may leave a direction without mass, none all of them: then any scale will do
+        const double scale = domain.node_mass[nodes[i]] + trace(m[i]);
+        const double floor = scale > 0 ? 1e-2 * scale : 1;
         for (unsigned int k = 0; k < dim; ++k)
           {
+            const bool free =
+              (domain.constrained[nodes[i]] >> k & 1) == 0 && m[i][k][k] > 0;
+            for (unsigned int l = 0; l < dim; ++l)
+              if (!free && l != k)
+                m[i][k][l] = m[i][l][k] = 0;
             m[i][k][k] += floor;
-            stiff.add(row + k, row + k, m[i][k][k]);
+            const GlobalIndex row = first + dim * i + k;
+            if (!free)
+              fit.matrix->set(row, row, m[i][k][k]);
+            stiff.add(row, row, m[i][k][k]);
           }
         inverse_m[i] = invert(m[i]);
       }
+    fit.matrix->compress(VectorOperation::insert);
     stiff.compress(VectorOperation::add);
   }
 
