@@ -119,7 +119,7 @@ check_scene(const MPI_Comm &comm, const std::string &scheme)
   const std::string rest = dim == 2 ? "" : "; 0";
   const auto        rows = run_scene<dim>(
     comm,
-    "set End time = 0.1\nset Frame interval = 0.1\nset Maximum time step = 0.02\n"
+    "set End time = 0.06\nset Frame interval = 0.06\nset Maximum time step = 0.02\n"
     "subsection Mesh\nset Surface level = 4\nset Interior level = 3\nset Air level = 2\nend\n"
     "subsection Gravity\nset Acceleration = 0; 0" +
       rest +

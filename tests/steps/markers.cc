@@ -157,14 +157,16 @@ print_for_a_person(char **argv)
 
 template <int dim>
 void
-check(const MPI_Comm &comm, const std::string &name, const unsigned int level, const double part)
+check(const MPI_Comm &comm, const std::string &name, const unsigned int level)
 {
   for (const char *method : {"level set", "marker level set"})
     {
+      if (dim == 3 && method == std::string("level set"))
+        continue; // for time
       typename SurfaceTracking<dim>::Parameters tracking;
       tracking.method            = method;
       tracking.volume_correction = false;
-      const Errors e             = carry<dim>(comm, name, level, 2, tracking, part);
+      const Errors e             = carry<dim>(comm, name, level, 2, tracking);
       out() << dim << "D, " << name << ", " << method << ": volume " << std::setprecision(4)
             << e.volume << ", shape " << e.shape << std::endl;
     }
@@ -178,9 +180,9 @@ main(int argc, char **argv)
     std::stoi(argv[2]) == 2 ? print_for_a_person<2>(argv) : print_for_a_person<3>(argv);
   else
     on_1_2_3_ranks([](const MPI_Comm &comm) {
-      check<2>(comm, "translation", 5, 1);
-      check<2>(comm, "notched", 5, 1);
-      check<2>(comm, "sheet4", 5, 1);
-      check<3>(comm, "translation", 4, 1);
+      check<2>(comm, "translation", 5);
+      check<2>(comm, "notched", 5);
+      check<2>(comm, "sheet4", 5);
+      check<3>(comm, "translation", 4);
     });
 }
