@@ -375,8 +375,7 @@ namespace treacle
         info.viscosity_iterations = viscosity.advance(*state, *fit, dt);
       }
     project(twice ? Pass::correction : Pass::first);
-    info.maximum_divergence = projection ? projection->maximum_divergence(*state) :
-                                           std::numeric_limits<double>::quiet_NaN();
+    info.maximum_divergence = Projection<dim>::maximum_divergence(*state, *domain);
     {
       const auto section = timing.section("reconstruction");
       reconstruction.advance(*state, *fit, reach);

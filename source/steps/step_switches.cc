@@ -21,8 +21,7 @@ namespace treacle
     prm.add_parameter("Viscosity", viscosity, "Is there a viscous step?");
     prm.add_parameter("Pressure",
                       pressure,
-                      "Is the velocity made free of divergence? If not, the pressure is zero, and "
-                      "the maximum divergence in the statistics is not a number (nan).");
+                      "Is the velocity made free of divergence? If not, the pressure is zero.");
     prm.leave_subsection();
   }
 
