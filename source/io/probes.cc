@@ -17,23 +17,21 @@ namespace treacle
       return "Probe " + std::to_string(k + 1);
     }
 
-    /// Pressure at a point of an owned cell: a linear fit to the pressure cells that
-    /// share a node with it (their dual centres lie around x), or their mean.
+    /// Pressure at x, as a linear fit to the pressure cells around a node has it, or
+    /// their mean. The node is one of an owned cell.
     template <int dim>
     double
     fitted_pressure(const State<dim>        &state,
                     const LiquidDomain<dim> &domain,
-                    const Location<dim>     &location)
+                    const LocalIndex         node,
+                    const Point<dim>        &x)
     {
       const Mesh<dim>      &mesh = domain.mesh;
-      const auto            &nodes = mesh.cell_nodes[location.cell];
       std::vector<LocalIndex> around;
       for (LocalIndex c = 0; c < mesh.cell_nodes.size(); ++c)
         if (domain.is_pressure_cell[c] && domain.liquid_volume[c] > 0 &&
-            std::find_first_of(nodes.begin(),
-                               nodes.end(),
-                               mesh.cell_nodes[c].begin(),
-                               mesh.cell_nodes[c].end()) != nodes.end())
+            std::find(mesh.cell_nodes[c].begin(), mesh.cell_nodes[c].end(), node) !=
+              mesh.cell_nodes[c].end())
           around.push_back(c);
       if (around.empty())
         return 0;
@@ -54,7 +52,7 @@ namespace treacle
         }
       if (determinant(matrix) < 1e-6 * std::pow(trace(matrix) / dim, dim))
         return mean;
-      return mean + (invert(matrix) * rhs) * (location.point - centre);
+      return mean + (invert(matrix) * rhs) * (x - centre);
     }
   } // namespace
 
@@ -120,7 +118,13 @@ namespace treacle
             continue;
           for (unsigned int d = 0; d < dim; ++d)
             numbers[k * (dim + 1) + d] = v[d];
-          numbers[k * (dim + 1) + dim] = fitted_pressure(state, domain, location);
+          // continuous, for a point between cells may be found in any of them
+          for (unsigned int i = 0; i <= dim; ++i)
+            numbers[k * (dim + 1) + dim] +=
+              location.lambda[i] * fitted_pressure(state,
+                                                   domain,
+                                                   mesh.cell_nodes[location.cell][i],
+                                                   location.point);
         }
     Utilities::MPI::sum(numbers, mesh.communicator(), numbers);
     std::vector<Values> result(positions.size());

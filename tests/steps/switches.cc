@@ -46,7 +46,7 @@ namespace
   {
     const auto rows = run_scene<dim>(comm, text + steps(off) + tolerance("1e-11"), 0, 1, 0, 2);
     const Row &first = rows.front(), &last = rows.back();
-    const auto value = [](const double x) { return std::abs(x) < 1e-7 ? 0. : x; };
+    const auto value = [](const double x) { return std::abs(x) < 1e-5 ? 0. : x; };
     out().precision(5);
     out() << dim << "D, " << name << ", without " << off << ": velocity "
           << value(first.at("Probe 1 velocity x (m/s)")) << " to "
