@@ -53,21 +53,30 @@ namespace treacle
   namespace
   {
     template <int dim>
+    std::shared_ptr<const Mesh<dim>>
+    imported_mesh(const MPI_Comm &comm, const typename ImportedMesh<dim>::Parameters &prm)
+    {
+      return prm.is_imported() ? std::make_shared<const Mesh<dim>>(comm, prm.file) : nullptr;
+    }
+
+    /// A mesh from a file has its own box.
+    template <int dim>
+    typename Simulator<dim>::Parameters
+    in_box_of_mesh(typename Simulator<dim>::Parameters prm, const Mesh<dim> *mesh)
+    {
+      if (mesh != nullptr)
+        std::tie(prm.scene.lower_corner, prm.scene.upper_corner) =
+          mesh->box().get_boundary_points();
+      return prm;
+    }
+
+    template <int dim>
     typename Octree<dim>::Parameters
     with_box(typename Octree<dim>::Parameters mesh, const Scene<dim> &scene)
     {
       mesh.lower_corner = scene.lower_corner();
       mesh.upper_corner = scene.upper_corner();
       return mesh;
-    }
-    template <int dim>
-    std::string
-    corner_text(const Point<dim> &x)
-    {
-      std::string text = Utilities::to_string(x[0]);
-      for (unsigned int d = 1; d < dim; ++d)
-        text += ", " + Utilities::to_string(x[d]);
-      return text;
     }
   } // namespace
 
@@ -76,7 +85,8 @@ namespace treacle
                             const Parameters  &parameters,
                             const std::string &parameters_as_used)
     : comm(comm)
-    , prm(parameters)
+    , imported(imported_mesh<dim>(comm, parameters.imported))
+    , prm(in_box_of_mesh(parameters, imported.get()))
     , parameters_as_used(parameters_as_used)
     , scene(prm.scene)
     , time_step(prm.time_step)
@@ -90,16 +100,15 @@ namespace treacle
     , timing(comm)
   {
     prm.steps.check(scene);
-    if (!prm.imported.is_imported())
+    if (imported)
       {
-        with_box(prm.mesh, scene).check();
-        probes.check(scene);
+        probes.check(*imported);
+        check_walls();
       }
     else
       {
-        imported = std::make_shared<const Mesh<dim>>(comm, prm.imported.file);
-        probes.check(*imported);
-        check_walls();
+        with_box(prm.mesh, scene).check();
+        probes.check(scene);
       }
   }
 
@@ -138,17 +147,10 @@ namespace treacle
     const Mesh<dim> &mesh = *state->mesh;
     reach                 = time_step.reach(mesh);
     std::string error;
-    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      {
-        double &phi = state->phi.local_element(node);
-        phi         = scene.liquid_distance(mesh.node_position[node]);
-        if (!std::isfinite(phi) && error.empty())
-          error = "The Expression of a liquid is not finite at x = (" +
-                  digits(mesh.node_position[node][0]) + ", ...): mend it.";
-      }
-    throw_first(comm, error);
-    state->phi.update_ghost_values();
     check_bodies();
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      state->phi.local_element(node) = scene.liquid_distance(mesh.node_position[node]);
+    state->phi.update_ghost_values();
     redistance(*state, reach);
     if (scene.has_advected_material())
       {
@@ -211,9 +213,9 @@ namespace treacle
       out << parameters_as_used;
       if (imported)
         out << "\n# the box of the mesh\nsubsection Domain\n  set Lower corner = "
-            << corner_text(imported->box().get_boundary_points().first)
+            << to_text(prm.scene.lower_corner, 17)
             << "\n  set Upper corner = "
-            << corner_text(imported->box().get_boundary_points().second) << "\nend\n";
+            << to_text(prm.scene.upper_corner, 17) << "\nend\n";
     });
   }
 
@@ -221,14 +223,23 @@ namespace treacle
   void
   Simulator<dim>::check_bodies() const
   {
-    const Mesh<dim> &mesh  = *state->mesh;
-    const auto       check = [&](const std::string &name, const auto &distance) {
+    const Mesh<dim> &mesh         = *state->mesh;
+    const auto       check_finite = [&](const std::string &name, const auto &distance) {
+      const auto &x      = mesh.node_position;
+      const bool  finite = std::all_of(x.begin(), x.end(), [&](const Point<dim> &p) {
+        return std::isfinite(distance(p));
+      });
+      require(Utilities::MPI::min(finite ? 1 : 0, comm) == 1,
+              name + ": the Expression is not finite somewhere in the box: mend it.");
+    };
+    const auto check = [&](const std::string &name, const auto &distance, const double time) {
+      check_finite(name, distance);
       bool in_box = false, outside_solids = false;
       for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
         if (const Point<dim> &x = mesh.node_position[node]; distance(x) < 0)
           {
             in_box         = true;
-            outside_solids = outside_solids || scene.solid_distance(x, 0) > 0;
+            outside_solids = outside_solids || scene.solid_distance(x, time) > 0;
           }
       require(Utilities::MPI::max(in_box ? 1 : 0, comm) == 1,
               name + (imported ? " lies outside the mesh, or is smaller than its cells: move it, "
@@ -239,11 +250,18 @@ namespace treacle
       require(Utilities::MPI::max(outside_solids ? 1 : 0, comm) == 1,
               name + " lies inside a solid: move one of them.");
     };
+    if (scene.has_solids())
+      check_finite("Solids", [&](const Point<dim> &x) { return scene.solid_distance(x, 0); });
     for (unsigned int k = 0; k < scene.n_liquids(); ++k)
-      check("Liquid " + std::to_string(k + 1),
-            [&](const Point<dim> &x) { return scene.liquid_distance(k, x); });
+      check(
+        "Liquid " + std::to_string(k + 1),
+        [&](const Point<dim> &x) { return scene.liquid_distance(k, x); },
+        0);
     for (const Emitter<dim> &emitter : scene.emitters())
-      check(emitter.where, [&](const Point<dim> &x) { return emitter.signed_distance(x); });
+      check(
+        emitter.where,
+        [&](const Point<dim> &x) { return emitter.signed_distance(x); },
+        emitter.start_time);
   }
 
   template <int dim>

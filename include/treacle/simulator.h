@@ -111,6 +111,7 @@ namespace treacle
     report();
 
     const MPI_Comm    comm;
+    const std::shared_ptr<const Mesh<dim>> imported; ///< null if the mesh is a lattice
     const Parameters  prm;
     const std::string parameters_as_used;
     const Scene<dim>  scene;
@@ -129,7 +130,6 @@ namespace treacle
     std::unique_ptr<Log>             log;
     std::unique_ptr<Statistics<dim>> statistics;
 
-    std::shared_ptr<const Mesh<dim>>   imported; ///< null if the mesh is a lattice
     std::unique_ptr<State<dim>>        state;
     std::unique_ptr<LiquidDomain<dim>> domain;
     unsigned int                       frame  = 0; ///< the last one written

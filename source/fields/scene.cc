@@ -199,11 +199,10 @@ namespace treacle
   double
   Scene<dim>::liquid_distance(const Point<dim> &x) const
   {
-    const auto distance = [&](const Liquid &liquid) { return liquid.shape.signed_distance(x); };
-    // not min(), which may hide what is not a number
-    const double of_liquids = liquids.empty() ? far_away : nearest(liquids, distance).second;
-    const double of_emitter = emitter_distance(x, 0.);
-    return of_emitter < of_liquids ? of_emitter : of_liquids;
+    double distance = emitter_distance(x, 0.);
+    for (const Liquid &liquid : liquids)
+      distance = std::min(distance, liquid.shape.signed_distance(x));
+    return distance;
   }
 
   template <int dim>

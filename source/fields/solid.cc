@@ -80,7 +80,7 @@ namespace treacle
     require(std::any_of(sample.begin(),
                         sample.end(),
                         [&](const Point<dim> &x) { return box.point_inside(pose.now(x)); }),
-            where + " has left the box at t = " + std::to_string(t) +
+            where + " has left the box at t = " + digits(t) +
               " s: change its motion, stop the run earlier (End time), or enlarge the box "
               "(Domain/Lower corner and Upper corner).");
   }

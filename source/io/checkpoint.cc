@@ -59,17 +59,6 @@ namespace treacle
     const std::string scalar_prefix = "Scalar ";
 
     template <int dim>
-    std::string
-    to_text(const Point<dim> &x)
-    {
-      std::ostringstream out;
-      out << std::setprecision(17) << x[0];
-      for (unsigned int d = 1; d < dim; ++d)
-        out << ", " << x[d];
-      return out.str();
-    }
-
-    template <int dim>
     std::vector<int>
     numbers_of_leaves(const Octree<dim> &octree)
     {
@@ -138,8 +127,8 @@ namespace treacle
           << "\nAdvected material = " << (state.material ? "true" : "false")
           << "\nMarkers = " << n_markers
           << "\nMesh type = " << (mesh.lattice() ? "lattice" : "file")
-          << "\nLower corner = " << to_text(box.first)
-          << "\nUpper corner = " << to_text(box.second) << '\n';
+          << "\nLower corner = " << to_text(box.first, 17)
+          << "\nUpper corner = " << to_text(box.second, 17) << '\n';
       if (mesh.lattice())
         out << "Root cells = " << mesh.octree().parameters().root_cells
             << "\nSurface level = " << mesh.octree().parameters().surface_level << '\n';
@@ -303,10 +292,10 @@ namespace treacle
     const auto [directory, info] = find("lattice");
     info.require_same("Lower corner",
                       "Domain/Lower corner",
-                      to_text(parameters.lower_corner));
+                      to_text(parameters.lower_corner, 17));
     info.require_same("Upper corner",
                       "Domain/Upper corner",
-                      to_text(parameters.upper_corner));
+                      to_text(parameters.upper_corner, 17));
     info.require_same("Root cells",
                       "Mesh/Root cells",
                       std::to_string(parameters.root_cells));
@@ -337,8 +326,8 @@ namespace treacle
     const auto &[lower, upper]   = imported->box().get_boundary_points();
     info.require_same("Cells", "the number of cells of Mesh/File", std::to_string(imported->cells->size()));
     info.require_same("Nodes", "the number of vertices of Mesh/File", std::to_string(imported->nodes->size()));
-    info.require_same("Lower corner", "the lower corner of Mesh/File", to_text(lower));
-    info.require_same("Upper corner", "the upper corner of Mesh/File", to_text(upper));
+    info.require_same("Lower corner", "the lower corner of Mesh/File", to_text(lower, 17));
+    info.require_same("Upper corner", "the upper corner of Mesh/File", to_text(upper, 17));
     const RowOrder<dim> order(*imported, row_size<dim>(has_material(info)));
     return load_state(imported,
                       directory,

@@ -59,18 +59,6 @@ namespace treacle
                 "Mesh/File: the mesh \"" + path + "\" has cells of the kind " +
                   kind.to_string() + "; it must be made of " + shape_name<dim>() + " alone.");
     }
-
-    template <int dim>
-    std::string
-    text(const Point<dim> &x)
-    {
-      std::ostringstream out;
-      out << "(" << x[0];
-      for (unsigned int d = 1; d < dim; ++d)
-        out << ", " << x[d];
-      out << ")";
-      return out.str();
-    }
   } // namespace
 
   template <int dim>
@@ -118,7 +106,7 @@ namespace treacle
   void
   MeshFile<dim>::fail(const std::string &problem, const Point<dim> &x) const
   {
-    throw UserError("Mesh/File: in the mesh \"" + path + "\" " + problem + " at " + text(x) + ".");
+    throw UserError("Mesh/File: in the mesh \"" + path + "\" " + problem + " at (" + to_text(x, 6) + ").");
   }
 
   template <int dim>

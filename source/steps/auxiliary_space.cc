@@ -69,6 +69,9 @@ namespace treacle
     for (unsigned int i = 0; i < nodes.size(); ++i)
       {
         m[i] = block[nodes[i]];
+        // few faces may leave a direction without mass, none all of them: then any scale will do
+        const double scale = domain.node_mass[nodes[i]] + trace(m[i]);
+        const double floor = scale > 0 ? 1e-2 * scale : 1;
         for (unsigned int k = 0; k < dim; ++k)
           {
             const bool free =
@@ -76,8 +79,7 @@ namespace treacle
             for (unsigned int l = 0; l < dim; ++l)
               if (!free && l != k)
                 m[i][k][l] = m[i][l][k] = 0;
-            // few faces may leave a direction without mass
-            m[i][k][k] += 1e-2 * domain.node_mass[nodes[i]];
+            m[i][k][k] += floor;
             const GlobalIndex row = first + dim * i + k;
             if (!free)
               fit.matrix->set(row, row, m[i][k][k]);

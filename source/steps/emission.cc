@@ -20,6 +20,15 @@ namespace treacle
     }
 
     template <int dim>
+    Point<dim>
+    in_box(Point<dim> x, const Scene<dim> &scene)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d] = std::min(std::max(x[d], scene.lower_corner()[d]), scene.upper_corner()[d]);
+      return x;
+    }
+
+    template <int dim>
     void
     set_material(State<dim> &state, const Scene<dim> &scene, const double time)
     {
@@ -51,7 +60,8 @@ namespace treacle
 
     // what was liquid before, in an emitter and beside it: what came from inside the
     // emitter, and what was there already. Paths that lead back through a wall bring none:
-    // what sticks to the ceiling beside an emitter must not become a second one
+    // what sticks to the ceiling beside an emitter, as a skin of it, must not become a
+    // second one
     const Mesh<dim> &mesh   = *state.mesh;
     const double     margin = 2 * mesh.finest_size();
     Vector           before = state.phi;
@@ -69,7 +79,8 @@ namespace treacle
             const double     depth = depth_beyond(from, scene, time);
             before.local_element(node) =
               std::max(std::min(phi, scene.emitter_distance(from, time)), depth);
-            if (depth > 0)
+            const bool   is_skin = phi > -mesh.finest_size();
+            if (depth > 0 && is_skin && scene.emitter_distance(in_box(from, scene), time) > 0)
               phi = std::max(phi, depth);
             phi = std::min(phi, distance);
           });

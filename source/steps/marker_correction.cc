@@ -12,7 +12,9 @@ namespace treacle
   std::vector<Marker<dim>>
   moved_markers(const State<dim> &state, const NodeVector<dim> &velocity, const double dt)
   {
-    const Mesh<dim>              &mesh = *state.mesh;
+    const Mesh<dim> &mesh = *state.mesh;
+    if (Utilities::MPI::max<unsigned int>(state.markers.size(), mesh.communicator()) == 0)
+      return {};
     const Tracer<dim>             tracer(mesh);
     const std::vector<Point<dim>> from = positions(state.markers);
     const std::vector<Point<dim>> to   = tracer.trace(from, velocity, dt);
@@ -33,12 +35,15 @@ namespace treacle
     std::vector<Marker<dim>> moved(from.size());
     for (unsigned int k = 0; k < from.size(); ++k)
       {
-        // dn/dt = -(grad u)^T n, and the length does not matter
-        Tensor<1, dim> normal = state.markers[k].normal;
+        // dn/dt = -(grad u)^T n by the implicit midpoint rule; the length does not matter
+        const Tensor<1, dim> &old = state.markers[k].normal;
+        Tensor<2, dim>        half;
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int j = 0; j < dim; ++j)
-            normal[j] -= dt * numbers[(k * dim + i) * dim + j] * state.markers[k].normal[i];
-        moved[k] = {to[k], normal / normal.norm()};
+            half[j][i] = 0.5 * dt * numbers[(k * dim + i) * dim + j];
+        const Tensor<1, dim> normal = invert(Tensor<2, dim>(unit_symmetric_tensor<dim>()) + half) * (old - half * old);
+        const double         length = normal.norm();
+        moved[k] = {to[k], std::isfinite(length) && length > 0 ? normal / length : old};
       }
     return moved;
   }
@@ -64,20 +69,6 @@ namespace treacle
       double distance;  ///< signed (m)
       bool   is_beside; ///< the node lies beyond the sheet's end
     };
-
-    /// The nearest of some markers.
-    template <int dim>
-    const Marker<dim> &
-    nearest(const Point<dim> &x, const Near<dim> &markers)
-    {
-      return (*std::min_element(markers.begin(),
-                                markers.end(),
-                                [&](const auto *a, const auto *b) {
-                                  return (x - a->marker.position).norm_square() <
-                                         (x - b->marker.position).norm_square();
-                                }))
-        ->marker;
-    }
 
     /// The mean distance from the planes of markers. With the mean of two normals it is
     /// exact for a sphere.

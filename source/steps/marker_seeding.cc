@@ -62,8 +62,7 @@ namespace treacle
     const unsigned int lost  = Utilities::MPI::sum(n_lost, comm);
     const unsigned int total = Utilities::MPI::sum<unsigned int>(state.markers.size(), comm);
     // where nothing is left, as of a film that withered, there is nothing to follow
-    const bool has_surface = Utilities::MPI::max(cuts_cells(state) ? 1 : 0, comm) == 1;
-    require(2 * lost <= total || !has_surface,
+    require(2 * lost <= total || Utilities::MPI::max(cuts_cells(state) ? 1 : 0, comm) == 0,
             "Surface tracking: " + std::to_string(lost) + " of " + std::to_string(total) +
               " markers are further than a leaf from the surface at t = " +
               digits(state.time) +
@@ -246,11 +245,7 @@ namespace treacle
             if (scene.has_solids() && scene.solid_distance(seed.position, state.time) < 0)
               continue;
             markers.around(seed.position, near);
-            const auto nearest = std::min_element(near.begin(), near.end(), [&](const auto *a, const auto *b) {
-              return (a->marker.position - seed.position).norm_square() <
-                     (b->marker.position - seed.position).norm_square();
-            });
-            if (near.empty() || (*nearest)->marker.normal * seed.normal > 0.5)
+            if (near.empty() || nearest(seed.position, near).normal * seed.normal > 0.5)
               kept.push_back(seed);
           }
         seeds = std::move(kept);

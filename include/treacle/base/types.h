@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <sstream>
 
 namespace treacle
 {
@@ -28,6 +29,19 @@ namespace treacle
   using GlobalIndex = types::global_dof_index;
 
   constexpr LocalIndex invalid = numbers::invalid_unsigned_int;
+
+  /// The coordinates, separated by commas.
+  template <int dim>
+  std::string
+  to_text(const Point<dim> &x, const int precision)
+  {
+    std::ostringstream text;
+    text.precision(precision);
+    text << x[0];
+    for (unsigned int d = 1; d < dim; ++d)
+      text << ", " << x[d];
+    return text.str();
+  }
 } // namespace treacle
 
 #endif

@@ -48,7 +48,7 @@ namespace treacle
   std::vector<Point<dim>>
   positions(const std::vector<Marker<dim>> &markers);
 
-  /// Each marker on the rank that owns the cell it lies in. Collective.
+  /// Each marker on the rank that owns the cell it lies in, of a lattice the leaf. Collective.
   template <int dim>
   std::vector<Marker<dim>>
   to_owners(const Mesh<dim> &mesh, const std::vector<Marker<dim>> &markers);

@@ -16,6 +16,18 @@ namespace treacle
     double      value;
   };
 
+  /// The one nearest to @p x of some, at least one.
+  template <int dim>
+  const Marker<dim> &
+  nearest(const Point<dim> &x, const std::vector<const NearMarker<dim> *> &markers)
+  {
+    const auto distance = [&](const auto *m) { return (x - m->marker.position).norm_square(); };
+    return (*std::min_element(markers.begin(),
+                              markers.end(),
+                              [&](const auto *a, const auto *b) { return distance(a) < distance(b); }))
+      ->marker;
+  }
+
   /// Finds the markers within a reach of points in this rank's cells.
   template <int dim>
   class NearMarkers

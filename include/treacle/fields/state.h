@@ -57,7 +57,7 @@ namespace treacle
     Vector            pressure; ///< at dual centres, of the last projection (Pa)
 
     std::optional<CarriedMaterial> material; ///< if it is advected
-    /// Each on the rank that owns the cell it lies in; none without marker level set.
+    /// Each on the rank that owns the cell it lies in (of a lattice: the leaf); none without marker level set.
     std::vector<Marker<dim>> markers;
   };
 } // namespace treacle

@@ -13,7 +13,7 @@ namespace treacle
   /// and `K v - f = b`, `-v - G f = -H u_old`, where K = -dt D, G = H M_f^-1 H^T, and b
   /// comes from prescribed components. This symmetric indefinite system is solved by
   /// MINRES. Its preconditioner is positive definite: one V-cycle of algebraic multigrid
-  /// for (K + m)^-1 and a polynomial in m^-1 W for G^-1, where W = P^T M_f P and m are
+  /// for (K + diag(m))^-1 and a polynomial in m^-1 W for G^-1, where W = P^T M_f P and m are
   /// the blocks of dim W on the diagonal. A "pair" is a vector that holds v and
   /// then f of this rank.
   template <int dim>

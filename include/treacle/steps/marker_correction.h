@@ -14,7 +14,7 @@ namespace treacle
   std::vector<Marker<dim>>
   moved_markers(const State<dim> &state, const NodeVector<dim> &velocity, const double dt);
 
-  /// Bring phi at the nodes within a leaf of markers to the surface the markers lie
+  /// Bring phi at the nodes within 1.25 leaves of markers to the surface the markers lie
   /// on. Collective.
   template <int dim>
   void
