@@ -86,7 +86,8 @@ namespace
     parameters.add_parameters(prm,
                               file.count("Liquid"),
                               file.count("Solid"),
-                              file.count("Emitter"));
+                              file.count("Emitter"),
+                              file.count("Probe"));
     file.parse(prm);
     std::ostringstream text;
     prm.print_parameters(text,

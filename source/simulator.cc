@@ -19,7 +19,8 @@ namespace treacle
   Simulator<dim>::Parameters::add_parameters(ParameterHandler  &handler,
                                              const unsigned int n_liquids,
                                              const unsigned int n_solids,
-                                             const unsigned int n_emitters)
+                                             const unsigned int n_emitters,
+                                             const unsigned int n_probes)
   {
     handler.add_parameter("Dimension", dimension, "Of space.", Patterns::Integer(2, 3));
     handler.add_parameter("Output directory",
@@ -27,6 +28,7 @@ namespace treacle
                           "Where everything that a run writes goes.");
     time_step.add_parameters(handler);
     scene.add_parameters(handler, n_liquids, n_solids, n_emitters);
+    steps.add_parameters(handler);
     imported.add_parameters(handler);
     mesh.add_parameters(handler);
     tracking.add_parameters(handler);
@@ -44,6 +46,7 @@ namespace treacle
     projection.add_parameters(handler);
     mesh_writer.add_parameters(handler);
     surface_writer.add_parameters(handler);
+    probes.add_parameters(handler, n_probes);
     checkpoint.add_parameters(handler);
   }
 
@@ -92,13 +95,21 @@ namespace treacle
     , reconstruction(prm.reconstruction)
     , mesh_writer(prm.mesh_writer)
     , surface_writer(prm.surface_writer)
+    , probes(prm.probes)
     , checkpoint(comm, prm.checkpoint, prm.output_directory)
     , timing(comm)
   {
+    prm.steps.check(scene);
     if (imported)
-      check_walls();
+      {
+        probes.check(*imported);
+        check_walls();
+      }
     else
-      with_box(prm.mesh, scene).check();
+      {
+        with_box(prm.mesh, scene).check();
+        probes.check(scene);
+      }
   }
 
   template <int dim>
@@ -162,7 +173,7 @@ namespace treacle
 
     // nothing is written before all that can be wrong with the scene was seen
     log        = std::make_unique<Log>(comm, prm.output_directory, false);
-    statistics = std::make_unique<Statistics<dim>>(comm, prm.output_directory);
+    statistics = std::make_unique<Statistics<dim>>(comm, prm.output_directory, probes);
     checkpoint.remove();
     write_parameters();
     statistics->add_row(*state, *domain, StepInfo());
@@ -187,7 +198,7 @@ namespace treacle
     reach                   = time_step.reach(*state->mesh);
     domain = std::make_unique<LiquidDomain<dim>>(*state, scene, prm.projection.minimum_theta);
     log        = std::make_unique<Log>(comm, prm.output_directory, true);
-    statistics = std::make_unique<Statistics<dim>>(comm, prm.output_directory);
+    statistics = std::make_unique<Statistics<dim>>(comm, prm.output_directory, probes);
     statistics->resume(state->step);
     write_parameters();
     log->line("resumed at t = " + digits(state->time) + " s, frame " +
@@ -320,39 +331,69 @@ namespace treacle
 
   template <int dim>
   void
+  Simulator<dim>::keep_surface(const double dt)
+  {
+    const auto section = timing.section("advection");
+    if (!prm.steps.advection)
+      {
+        state->time += dt;
+        ++state->step;
+        return;
+      }
+    State<dim> next =
+      Advection<dim>(prm.advection, *state, *domain).advance(state->mesh, dt, reach);
+    next.phi     = state->phi;
+    next.v       = state->v; // the first guess of the next solves
+    next.markers = std::move(state->markers);
+    next.phi.update_ghost_values();
+    next.v.update_ghost_values();
+    domain.reset();
+    state = std::make_unique<State<dim>>(std::move(next));
+  }
+
+  template <int dim>
+  void
   Simulator<dim>::step(const double dt)
   {
     Timer wall;
     info    = StepInfo();
     info.dt = dt;
-    move_surface(dt);
+    if (prm.steps.surface)
+      move_surface(dt);
+    else
+      keep_surface(dt);
     {
       const auto section = timing.section("liquid domain");
       domain = std::make_unique<LiquidDomain<dim>>(*state, scene, prm.projection.minimum_theta);
       forces.advance(*state, *domain, dt);
     }
-    const auto projection = [&] {
+    const auto projection = [&]() -> std::unique_ptr<const Projection<dim>> {
+      if (!prm.steps.pressure)
+        return nullptr;
       const auto section = timing.section("pressure");
       return std::make_unique<const Projection<dim>>(prm.projection, *domain);
     }();
     using Pass        = typename Projection<dim>::Pass;
     const auto project = [&](const Pass pass) {
+      if (!projection)
+        return;
       const auto section = timing.section("pressure");
       info.pressure_iterations += projection->advance(*state, dt, pass);
     };
-    const bool twice = prm.coupling == "split with first projection";
+    const bool twice = prm.steps.viscosity && prm.coupling == "split with first projection";
     if (twice)
       project(Pass::first);
     const auto fit = [&] {
       const auto section = timing.section("face fit");
       return std::make_unique<const FaceFit<dim>>(prm.face_fit, *domain);
     }();
-    {
-      const auto section        = timing.section("viscosity");
-      info.viscosity_iterations = viscosity.advance(*state, *fit, dt);
-    }
+    if (prm.steps.viscosity)
+      {
+        const auto section        = timing.section("viscosity");
+        info.viscosity_iterations = viscosity.advance(*state, *fit, dt);
+      }
     project(twice ? Pass::correction : Pass::first);
-    info.maximum_divergence = projection->maximum_divergence(*state);
+    info.maximum_divergence = Projection<dim>::maximum_divergence(*state, *domain);
     {
       const auto section = timing.section("reconstruction");
       reconstruction.advance(*state, *fit, reach);

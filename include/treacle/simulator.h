@@ -15,6 +15,7 @@
 #include <treacle/steps/forces.h>
 #include <treacle/steps/projection.h>
 #include <treacle/steps/reconstruction.h>
+#include <treacle/steps/step_switches.h>
 #include <treacle/steps/surface_tracking.h>
 #include <treacle/steps/time_step.h>
 #include <treacle/steps/viscosity.h>
@@ -33,6 +34,7 @@ namespace treacle
 
       typename TimeStep<dim>::Parameters        time_step;
       typename Scene<dim>::Parameters           scene;
+      StepSwitches                              steps;
       typename ImportedMesh<dim>::Parameters    imported;
       typename Octree<dim>::Parameters          mesh;
       typename SurfaceTracking<dim>::Parameters tracking;
@@ -44,6 +46,7 @@ namespace treacle
       typename Projection<dim>::Parameters      projection;
       typename MeshWriter<dim>::Parameters      mesh_writer;
       typename SurfaceWriter<dim>::Parameters   surface_writer;
+      typename Probes<dim>::Parameters          probes;
       typename Checkpoint<dim>::Parameters      checkpoint;
 
       /// @p prm writes into this object when it parses; do not move it before.
@@ -51,7 +54,8 @@ namespace treacle
       add_parameters(ParameterHandler  &prm,
                      const unsigned int n_liquids,
                      const unsigned int n_solids,
-                     const unsigned int n_emitters = 0);
+                     const unsigned int n_emitters = 0,
+                     const unsigned int n_probes   = 0);
     };
 
     /// @p parameters_as_used is the text for the file parameters.prm. Throws a
@@ -96,6 +100,10 @@ namespace treacle
     void
     move_surface(const double dt);
 
+    /// Velocity and material move on, if they do, but neither surface nor mesh.
+    void
+    keep_surface(const double dt);
+
     void
     output_frame();
 
@@ -116,6 +124,7 @@ namespace treacle
 
     const MeshWriter<dim>            mesh_writer;
     const SurfaceWriter<dim>         surface_writer;
+    const Probes<dim>                probes;
     const Checkpoint<dim>            checkpoint;
     Timing                           timing;
     std::unique_ptr<Log>             log;

@@ -18,6 +18,10 @@ namespace treacle
       psi.reserve(mesh.node_position.size());
       for (const Point<dim> &x : mesh.node_position)
         psi.push_back(scene.solid_distance(x, time));
+      // a wall along nodes is one, whatever rounding says
+      for (double &distance : psi)
+        if (std::abs(distance) < 1e-10 * mesh.finest_size())
+          distance = 0;
       return psi;
     }
 

@@ -181,7 +181,7 @@ namespace treacle
       append(setting);
     scan();
     if (name.empty())
-      n_numbered = {{"Liquid", 1}, {"Solid", 1}, {"Emitter", 1}};
+      n_numbered = {{"Liquid", 1}, {"Solid", 1}, {"Emitter", 1}, {"Probe", 1}};
   }
 
   void
@@ -211,7 +211,7 @@ namespace treacle
   {
     std::map<std::string, std::map<unsigned int, unsigned int>>
                      lines; // by name and number
-    const std::regex numbered("(Liquid|Solid|Emitter) ([0-9]{1,6})");
+    const std::regex numbered("(Liquid|Solid|Emitter|Probe) ([0-9]{1,6})");
     std::smatch      match;
     for (const Line &line : read_lines(text))
       if (!line.path.empty())

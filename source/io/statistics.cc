@@ -109,9 +109,12 @@ namespace treacle
   } // namespace
 
   template <int dim>
-  Statistics<dim>::Statistics(const MPI_Comm &comm, const std::string &directory)
+  Statistics<dim>::Statistics(const MPI_Comm    &comm,
+                              const std::string &directory,
+                              const Probes<dim> &probes)
     : comm(comm)
     , path(directory + "/statistics")
+    , probes(probes)
   {}
 
   template <int dim>
@@ -143,7 +146,14 @@ namespace treacle
               restored[2] = column(emitted_name<dim>());
               kept += line + '\n';
             }
-        if (kept.empty())
+        const auto n_probes = std::count_if(names.begin(), names.end(), [](const std::string &name) {
+          return name.rfind("Probe ", 0) == 0 && name.find(" pressure") != std::string::npos;
+        });
+        if (!kept.empty() && n_probes != probes.size())
+          error = "The run cannot be resumed: it had " + std::to_string(n_probes) +
+                  " probes, and now there are " + std::to_string(probes.size()) +
+                  "; let the subsections Probe be as they were.";
+        else if (kept.empty())
           error = "The run cannot be resumed: the table \"" + path +
                   "\" has no row before step " + std::to_string(step) + ".";
         else
@@ -199,6 +209,13 @@ namespace treacle
     add.count("Viscosity iterations", info.viscosity_iterations);
     add.count("Pressure iterations", info.pressure_iterations);
     add.number("Wall time (s)", info.wall_time);
+    const auto values = probes.read(state, domain);
+    for (unsigned int k = 0; k < values.size(); ++k)
+      {
+        const std::string probe = "Probe " + std::to_string(k + 1);
+        add.vector(probe + " velocity", "m/s", values[k].velocity, dim);
+        add.number(probe + " pressure (Pa)", values[k].pressure);
+      }
     append();
   }
 

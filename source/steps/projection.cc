@@ -165,7 +165,7 @@ namespace treacle
 
   template <int dim>
   double
-  Projection<dim>::outflow(const LocalIndex c, const Vector &u) const
+  Projection<dim>::outflow(const LiquidDomain<dim> &domain, const LocalIndex c, const Vector &u)
   {
     double flux = 0;
     for (const LocalIndex f : domain.mesh.cell_faces[c])
@@ -176,6 +176,26 @@ namespace treacle
                 (alpha * u.local_element(f) + (1 - alpha) * domain.solid_velocity[f]);
       }
     return flux;
+  }
+
+  template <int dim>
+  void
+  Projection<dim>::take_off_mean(Vector &q, const std::vector<double> &weight) const
+  {
+    for (const Pocket &pocket : pockets)
+      {
+        std::array<double, 2> sums{}; // of the weighted values, of the weights
+        for (const unsigned int i : pocket.rows)
+          {
+            sums[0] += weight[i] * q.local_element(i);
+            sums[1] += weight[i];
+          }
+        Utilities::MPI::sum(ArrayView<const double>(sums.data(), 2),
+                            domain.mesh.communicator(),
+                            ArrayView<double>(sums.data(), 2));
+        for (const unsigned int i : pocket.rows)
+          q.local_element(i) -= sums[0] / sums[1];
+      }
   }
 
   template <int dim>
@@ -190,7 +210,7 @@ namespace treacle
     state.u.update_ghost_values();
     for (unsigned int i = 0; i < owned_cells.size(); ++i)
       {
-        b.local_element(i) = -outflow(owned_cells[i], state.u);
+        b.local_element(i) = -outflow(domain, owned_cells[i], state.u);
         if (pass == Pass::first)
           q.local_element(i) = state.pressure.local_element(owned_cells[i]) * dt;
       }
@@ -203,7 +223,16 @@ namespace treacle
         for (const unsigned int i : pocket.rows)
           b.local_element(i) -= excess;
       }
+    // the matrix makes the pressure of the pinned cells 0, and so must the first guess; but
+    // which cells these are depends on the partition
+    std::vector<double> is_pinned(owned_cells.size(), 0.), volume;
+    for (const unsigned int i : pinned)
+      is_pinned[i] = 1;
+    for (const LocalIndex c : owned_cells)
+      volume.push_back(mesh.cell_volume[c]);
+    take_off_mean(q, is_pinned);
     const unsigned int iterations = solver->solve(q, b);
+    take_off_mean(q, volume);
 
     Vector q_cell = mesh.zeros(mesh.cells);
     for (unsigned int i = 0; i < owned_cells.size(); ++i)
@@ -282,11 +311,13 @@ namespace treacle
 
   template <int dim>
   double
-  Projection<dim>::maximum_divergence(const State<dim> &state) const
+  Projection<dim>::maximum_divergence(const State<dim> &state, const LiquidDomain<dim> &domain)
   {
     double largest = 0;
-    for (const LocalIndex c : owned_cells)
-      largest = std::max(largest, std::abs(outflow(c, state.u)) / domain.mesh.cell_volume[c]);
+    for (LocalIndex c = 0; c < domain.mesh.n_owned_cells(); ++c)
+      if (domain.is_pressure_cell[c])
+        largest =
+          std::max(largest, std::abs(outflow(domain, c, state.u)) / domain.mesh.cell_volume[c]);
     return Utilities::MPI::max(largest, domain.mesh.communicator());
   }
 

@@ -41,11 +41,12 @@ namespace tests
   parse(const std::string &text,
         const unsigned int n_solids,
         const unsigned int n_liquids  = 1,
-        const unsigned int n_emitters = 0)
+        const unsigned int n_emitters = 0,
+        const unsigned int n_probes   = 0)
   {
     ParameterHandler                    prm;
     typename Simulator<dim>::Parameters parameters;
-    parameters.add_parameters(prm, n_liquids, n_solids, n_emitters);
+    parameters.add_parameters(prm, n_liquids, n_solids, n_emitters, n_probes);
     prm.parse_input_from_string(text);
     return parameters;
   }
@@ -57,10 +58,11 @@ namespace tests
             const std::string &text,
             const unsigned int n_solids   = 0,
             const unsigned int n_liquids  = 1,
-            const unsigned int n_emitters = 0)
+            const unsigned int n_emitters = 0,
+            const unsigned int n_probes   = 0)
   {
     typename Simulator<dim>::Parameters parameters =
-      parse<dim>(text, n_solids, n_liquids, n_emitters);
+      parse<dim>(text, n_solids, n_liquids, n_emitters, n_probes);
     parameters.output_directory =
       "run_" + std::to_string(dim) + "d_" + std::to_string(Utilities::MPI::n_mpi_processes(comm));
     parameters.mesh_writer.format    = "none";

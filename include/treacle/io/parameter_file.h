@@ -20,7 +20,7 @@ namespace treacle
   {
   public:
     /// Rank 0 reads the file; an empty name stands for an empty file with one
-    /// Liquid and one Solid. A setting is "Section/Name=value". Throws a UserError
+    /// of each numbered subsection. A setting is "Section/Name=value". Throws a UserError
     /// on all ranks. Collective.
     ParameterFile(const MPI_Comm                 &comm,
                   const std::string              &name,
@@ -33,7 +33,7 @@ namespace treacle
       return dim;
     }
 
-    /// How many numbered subsections of this name there are: Liquid, Solid, Emitter.
+    /// How many numbered subsections of this name there are: Liquid, Solid, Emitter, Probe.
     unsigned int
     count(const std::string &name) const
     {

@@ -4,7 +4,7 @@
 #ifndef treacle_io_statistics_h
 #define treacle_io_statistics_h
 
-#include <treacle/fields/liquid_domain.h>
+#include <treacle/io/probes.h>
 
 namespace treacle
 {
@@ -36,10 +36,12 @@ namespace treacle
     };
 
     /// Starts a new table. The directory exists.
-    Statistics(const MPI_Comm &comm, const std::string &directory);
+    Statistics(const MPI_Comm    &comm,
+               const std::string &directory,
+               const Probes<dim> &probes = Probes<dim>());
 
     /// Continue the old table behind the row of this step. Throws a UserError
-    /// on all ranks if there is no such table. Collective.
+    /// on all ranks if there is no such table, or one with other probes. Collective.
     void
     resume(const unsigned int step);
 
@@ -59,6 +61,7 @@ namespace treacle
 
     MPI_Comm           comm;
     std::string        path;
+    const Probes<dim>  probes;
     bool               has_file     = false;
     bool               has_first    = false;
     double             first_volume = 0; ///< of the first row (m^dim)

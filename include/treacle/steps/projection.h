@@ -39,23 +39,28 @@ namespace treacle
     };
 
     /// Make state.u free of divergence; sets state.pressure, or adds to it in a
-    /// correction. Returns the number of iterations.
+    /// correction. In a pocket without a free surface the mean of the pressure is 0.
+    /// Returns the number of iterations.
     unsigned int
     advance(State<dim> &state, const double dt, const Pass pass) const;
 
     /// Largest |divergence| of a pressure cell over all ranks (1/s).
-    double
-    maximum_divergence(const State<dim> &state) const;
+    static double
+    maximum_divergence(const State<dim> &state, const LiquidDomain<dim> &domain);
 
   private:
     /// Volume flux out of a cell (m^dim/s).
-    double
-    outflow(const LocalIndex cell, const Vector &u) const;
+    static double
+    outflow(const LiquidDomain<dim> &domain, const LocalIndex cell, const Vector &u);
 
     /// dt p at all dual centres: beyond the surface the liquid's pressure goes on
     /// in proportion to phi, as the ghost fluid has it across a face.
     Vector
     extended(const Vector &q) const;
+
+    /// Take its weighted mean off dt p of each closed pocket; one weight a row.
+    void
+    take_off_mean(Vector &q, const std::vector<double> &weight) const;
 
     void
     find_closed_pockets();
