@@ -74,8 +74,7 @@ carry(const MPI_Comm                                  &comm,
       const std::string                               &name,
       const unsigned int                               level,
       const double                                     cfl,
-      const typename SurfaceTracking<dim>::Parameters &tracking_parameters,
-      const double                                     part_of_period = 1)
+      const typename SurfaceTracking<dim>::Parameters &tracking_parameters)
 {
   const Case<dim>                     test = find_case<dim>(name);
   typename Simulator<dim>::Parameters prm =
@@ -108,7 +107,7 @@ carry(const MPI_Comm                                  &comm,
     2 * static_cast<unsigned int>(std::ceil(0.5 * test.period * test.speed / (cfl * h)));
   const double       dt = test.period / n;
   Timer              timer(comm);
-  for (; errors.steps < part_of_period * n; ++errors.steps)
+  for (; errors.steps < n; ++errors.steps)
     {
       for (LocalIndex node = 0; node < state->mesh->n_owned_nodes(); ++node)
         state->v.set(node, test.velocity(state->mesh->node_position[node], state->time + 0.5 * dt));
