@@ -159,7 +159,7 @@ namespace treacle
       }
     tracking.reseed(*state, scene);
 
-    domain = std::make_unique<LiquidDomain<dim>>(*state, scene, prm.projection.minimum_theta);
+    domain = liquid_domain();
     volume = domain->total_volume();
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       if (domain->is_liquid_face(f))
@@ -196,7 +196,7 @@ namespace treacle
             "Material/Transport: it must be the one of the run that is resumed.");
     volume                  = progress.scalars.at("volume");
     reach                   = time_step.reach(*state->mesh);
-    domain = std::make_unique<LiquidDomain<dim>>(*state, scene, prm.projection.minimum_theta);
+    domain = liquid_domain();
     log        = std::make_unique<Log>(comm, prm.output_directory, true);
     statistics = std::make_unique<Statistics<dim>>(comm, prm.output_directory, probes);
     statistics->resume(state->step);
@@ -330,6 +330,18 @@ namespace treacle
   }
 
   template <int dim>
+  std::unique_ptr<LiquidDomain<dim>>
+  Simulator<dim>::liquid_domain() const
+  {
+    using Hold = typename LiquidDomain<dim>::Hold;
+    return std::make_unique<LiquidDomain<dim>>(*state,
+                                               scene,
+                                               prm.projection.minimum_theta,
+                                               prm.viscosity.solid_walls == "nodes" ? Hold::nodes :
+                                                                                      Hold::walls);
+  }
+
+  template <int dim>
   void
   Simulator<dim>::keep_surface(const double dt)
   {
@@ -364,7 +376,7 @@ namespace treacle
       keep_surface(dt);
     {
       const auto section = timing.section("liquid domain");
-      domain = std::make_unique<LiquidDomain<dim>>(*state, scene, prm.projection.minimum_theta);
+      domain = liquid_domain();
       forces.advance(*state, *domain, dt);
     }
     const auto projection = [&]() -> std::unique_ptr<const Projection<dim>> {

@@ -100,6 +100,9 @@ namespace treacle
     void
     move_surface(const double dt);
 
+    std::unique_ptr<LiquidDomain<dim>>
+    liquid_domain() const;
+
     /// Velocity and material move on, if they do, but neither surface nor mesh.
     void
     keep_surface(const double dt);

@@ -56,13 +56,16 @@ namespace treacle
   template <int dim>
   LiquidDomain<dim>::LiquidDomain(const State<dim> &state,
                                   const Scene<dim> &scene,
-                                  const double      minimum_theta)
+                                  const double      minimum_theta,
+                                  const Hold        hold)
     : mesh(*state.mesh)
     , scene(scene)
     , minimum_theta(minimum_theta)
   {
     scene.check_solids(state.time);
     solid_distance = solid_distances(mesh, scene, state.time);
+    if (hold == Hold::walls && scene.has_solids())
+      cut_cells = CutCells<dim>(mesh, scene, solid_distance, state.time);
     find_emitters(state.time);
     measure_cells(state);
     measure_faces(state);

@@ -3,7 +3,9 @@
 
 #include <treacle/geometry/simplex.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace treacle
 {
@@ -24,32 +26,31 @@ namespace treacle
       unsigned int              n = 0;
     };
 
-    /// Vertices with negative values first; returns how many there are.
+    /// Vertices with negative values first, else as they are; returns how many there are.
     template <int dim>
     unsigned int
     negative_first(const VertexValues<dim> &phi, std::array<unsigned int, dim + 1> &order)
     {
-      unsigned int n_negative = 0;
-      for (unsigned int i = 0; i <= dim; ++i)
-        n_negative += phi[i] < 0;
-      unsigned int negative = 0, positive = n_negative;
-      for (unsigned int i = 0; i <= dim; ++i)
-        order[phi[i] < 0 ? negative++ : positive++] = i;
-      return n_negative;
+      return std::stable_partition(order.begin(),
+                                   order.end(),
+                                   [&](const unsigned int i) { return phi[i] < 0; }) -
+             order.begin();
     }
 
-    /// Which vertex of the whole, or which cut on the edge between two of them
-    /// (i negative, j not), is a vertex of a piece.
-    struct Corner
+    template <int dim>
+    std::array<unsigned int, dim + 1>
+    as_they_are()
     {
-      unsigned char i, j;
-    };
+      std::array<unsigned int, dim + 1> order;
+      std::iota(order.begin(), order.end(), 0);
+      return order;
+    }
 
     template <int dim>
     using Corners = std::array<std::array<Corner, dim + 1>, 3>;
 
     /// The negative part as simplices (entry k: k+1 negative vertices), for
-    /// vertices in the order of negative_first(). In 3D two or three negative
+    /// negative vertices first. In 3D two or three negative
     /// vertices leave a prism.
     template <int dim>
     constexpr std::array<Corners<dim>, dim> negative_pieces;
@@ -69,32 +70,47 @@ namespace treacle
          {{{0, 0}, {1, 1}, {1, 3}, {2, 3}}},
          {{{0, 0}, {0, 3}, {1, 3}, {2, 3}}}}}}};
 
+  } // namespace
+
+  template <int dim>
+  Parts<dim>
+  negative_parts(const VertexValues<dim>                   &phi,
+                 const std::array<unsigned int, dim + 1> &order)
+  {
+    std::array<unsigned int, dim + 1> sorted = order;
+    const unsigned int                n_negative = negative_first<dim>(phi, sorted);
+
+    Parts<dim> result;
+    if (n_negative == 0)
+      return result;
+    result.n = n_negative == 1 || n_negative == dim + 1 ? 1 : dim;
+    for (unsigned int k = 0; k < result.n; ++k)
+      for (unsigned char v = 0; v <= dim; ++v)
+        {
+          const Corner corner = n_negative == dim + 1 ? Corner{v, v} :
+                                                        negative_pieces<dim>[n_negative - 1][k][v];
+          result.corners[k][v] = {static_cast<unsigned char>(sorted[corner.i]),
+                                  static_cast<unsigned char>(sorted[corner.j])};
+        }
+    return result;
+  }
+
+  namespace
+  {
     /// The part of a piece where phi < 0, as at most three pieces.
     template <int dim>
     Pieces<dim>
     clip(const Piece<dim> &whole, const VertexValues<dim> &phi)
     {
-      std::array<unsigned int, dim + 1> order;
-      const unsigned int                n_negative = negative_first<dim>(phi, order);
+      const Parts<dim> parts = negative_parts<dim>(phi, as_they_are<dim>());
 
       Pieces<dim> result;
-      if (n_negative == 0)
-        return result;
-      if (n_negative == dim + 1)
-        {
-          result.piece[0] = whole;
-          result.n        = 1;
-          return result;
-        }
-
-      const Corners<dim> &corners = negative_pieces<dim>[n_negative - 1];
-      result.n                    = (n_negative == 1 ? 1 : dim);
-      for (unsigned int k = 0; k < result.n; ++k)
+      result.n = parts.n;
+      for (unsigned int k = 0; k < parts.n; ++k)
         for (unsigned int v = 0; v <= dim; ++v)
           {
-            const unsigned int i = order[corners[k][v].i];
-            const unsigned int j = order[corners[k][v].j];
-            const double       t = (i == j ? 0. : phi[i] / (phi[i] - phi[j]));
+            const auto [i, j] = parts.corners[k][v];
+            const double t    = (i == j ? 0. : phi[i] / (phi[i] - phi[j]));
 
             result.piece[k].x[v]   = whole.x[i] + t * (whole.x[j] - whole.x[i]);
             result.piece[k].psi[v] = (1 - t) * whole.psi[i] + t * whole.psi[j];
@@ -207,8 +223,8 @@ namespace treacle
   double
   negative_fraction(const VertexValues<dim> &phi)
   {
-    std::array<unsigned int, dim + 1> order;
-    const unsigned int                n_negative = negative_first<dim>(phi, order);
+    auto               order      = as_they_are<dim>();
+    const unsigned int n_negative = negative_first<dim>(phi, order);
     if (n_negative == 0)
       return 0;
     if (n_negative == dim + 1)
@@ -326,6 +342,8 @@ namespace treacle
   template Point<dim>        weighted_circumcentre<dim>(const Simplex<dim> &,            \
                                                  const VertexValues<dim> &);      \
   template double            negative_fraction<dim>(const VertexValues<dim> &);          \
+  template Parts<dim>        negative_parts<dim>(const VertexValues<dim> &,              \
+                                          const std::array<unsigned int, dim + 1> &); \
   template Moments<dim>      liquid_moments<dim>(const Simplex<dim> &,                   \
                                             const VertexValues<dim> &,              \
                                             const VertexValues<dim> &);             \

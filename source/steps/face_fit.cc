@@ -13,7 +13,7 @@ namespace treacle
     stiffness.strain.resize(domain.mesh.cell_nodes.size());
     for (LocalIndex c = 0; c < stiffness.strain.size(); ++c)
       stiffness.strain[c] = 1e-2 * domain.mesh.cell_size[c] * domain.mesh.cell_size[c] *
-                            domain.density[c] * domain.mesh.cell_volume[c];
+                            domain.density[c] * domain.open_volume(c);
     assembled = system.assemble(NodeSystem<dim>::Mass::faces, stiffness);
     solver = std::make_unique<LinearSolver>(parameters.solver,
                                             "Face fit",

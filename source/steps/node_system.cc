@@ -36,11 +36,13 @@ namespace treacle
                                  const Stiffness             &stiffness,
                                  const LocalIndex             node,
                                  std::vector<LocalIndex>     &columns,
-                                 std::vector<Tensor<2, dim>> &blocks) const
+                                 std::vector<Tensor<2, dim>> &blocks,
+                                 Tensor<1, dim>              &wall_force) const
   {
     const Mesh<dim> &mesh = domain.mesh;
     columns.assign(1, node);
     blocks.assign(1, Tensor<2, dim>());
+    wall_force          = 0;
     slot[node]          = 0;
     const auto block_of = [&](const LocalIndex other) -> Tensor<2, dim> & {
       if (slot[other] == invalid)
@@ -58,21 +60,33 @@ namespace treacle
         if (!domain.is_active_cell[c])
           continue;
         const auto &nodes = mesh.cell_nodes[c];
-        const auto &g     = mesh.cell_gradients[c];
-        const auto  i     = std::find(nodes.begin(), nodes.end(), node) - nodes.begin();
-        const double strain   = stiffness.strain.empty() ? 0 : stiffness.strain[c];
-        const double gradient = stiffness.gradient.empty() ? 0 : stiffness.gradient[c];
-        for (unsigned int j = 0; j <= dim; ++j)
+        const unsigned int i = std::find(nodes.begin(), nodes.end(), node) - nodes.begin();
+        const double       strain   = stiffness.strain.empty() ? 0 : stiffness.strain[c];
+        const double       gradient = stiffness.gradient.empty() ? 0 : stiffness.gradient[c];
+        const auto         stiff = [&](const Tensor<1, dim> &g, const Tensor<1, dim> &other) {
+          return (strain + gradient) * (g * other) * Tensor<2, dim>(unit_symmetric_tensor<dim>()) +
+                 strain * outer_product(other, g);
+        };
+        const auto parts = domain.cut_cells.parts(c);
+        // nodes in solids have rows of their own, for which any scale will do
+        if (parts.size() == 0 || domain.solid_distance[node] <= 0)
           {
-            Tensor<2, dim> &block = block_of(nodes[j]);
-            const double    gg    = (strain + gradient) * (g[i] * g[j]);
-            for (unsigned int a = 0; a < dim; ++a)
-              {
-                block[a][a] += gg;
-                for (unsigned int b = 0; b < dim; ++b)
-                  block[a][b] += strain * g[j][a] * g[i][b];
-              }
+            const auto &g = mesh.cell_gradients[c];
+            for (unsigned int j = 0; j <= dim; ++j)
+              block_of(nodes[j]) += stiff(g[i], g[j]);
           }
+        for (const auto &part : parts)
+          for (unsigned int k = 0; k <= dim; ++k)
+            if (part.vertex[k] == i)
+              for (unsigned int l = 0; l <= dim; ++l)
+                {
+                  const Tensor<2, dim> block =
+                    part.fraction * stiff(part.gradient[k], part.gradient[l]);
+                  if (part.vertex[l] == CutCells<dim>::on_wall)
+                    wall_force -= block * part.velocity[l];
+                  else
+                    block_of(nodes[part.vertex[l]]) += block;
+                }
       }
 
     if (mass == Mass::nodes)
@@ -112,12 +126,13 @@ namespace treacle
     const auto is_constrained = [&](const LocalIndex node, const unsigned int d) {
       return (domain.constrained[node] >> d & 1) != 0;
     };
+    Tensor<1, dim>           wall_force;
     std::vector<GlobalIndex> indices;
     std::vector<double>      values;
     for (unsigned int i = 0; i < owned_nodes.size(); ++i)
       {
         const LocalIndex node = owned_nodes[i];
-        assemble_node(mass, stiffness, node, columns, blocks);
+        assemble_node(mass, stiffness, node, columns, blocks, wall_force);
         for (unsigned int a = 0; a < dim; ++a)
           {
             const GlobalIndex row = dim * number[node] + a;
@@ -125,6 +140,8 @@ namespace treacle
             const double diagonal = blocks[0][a][a] > 0 ? blocks[0][a][a] : 1;
             indices.assign(1, row);
             values.assign(1, diagonal);
+            if (!is_constrained(node, a))
+              result.shift.local_element(dim * i + a) += wall_force[a];
             for (unsigned int k = 0; k < columns.size() && !is_constrained(node, a); ++k)
               for (unsigned int b = decoupled ? a : 0; b < (decoupled ? a + 1 : dim); ++b)
                 if (is_constrained(columns[k], b))

@@ -61,12 +61,11 @@ namespace treacle
                       "Full: the stress mu (grad u + grad u^T). Laplacian: div(mu grad u) for "
                       "each component, which damps rotation where the liquid is free; for comparison.",
                       Patterns::Selection("full|laplacian"));
-    prm.add_parameter("Wall weighting",
-                      wall_weighting,
-                      "The same of a cell that a solid cuts, whose nodes in the solid move with "
-                      "it: liquid fraction weakens the wall's hold; whole puts the wall at these "
-                      "nodes; distance puts it where it is.",
-                      Patterns::Selection("liquid fraction|whole|distance"));
+    prm.add_parameter("Solid walls",
+                      solid_walls,
+                      "Where solids hold the liquid: at their walls, which cut cells, or at the nodes "
+                      "inside them, to first order.",
+                      Patterns::Selection("cut cells|nodes"));
     prm.add_parameter("Element weighting",
                       element_weighting,
                       "Whether the stiffness of a cell that the surface cuts is scaled by its "
@@ -98,35 +97,9 @@ namespace treacle
     weight.resize(domain.viscosity.size());
     for (LocalIndex c = 0; c < weight.size(); ++c)
       if (domain.liquid_volume[c] > 0)
-        weight[c] = dt * domain.viscosity[c] *
-                    (whole ? domain.mesh.cell_volume[c] : domain.liquid_volume[c]) *
-                    wall_factor(domain, c);
+        weight[c] =
+          dt * domain.viscosity[c] * (whole ? domain.open_volume(c) : domain.liquid_volume[c]);
     return result;
-  }
-
-  template <int dim>
-  double
-  Viscosity<dim>::wall_factor(const LiquidDomain<dim> &domain, const LocalIndex cell) const
-  {
-    double            outside = 0, inside = 0;
-    unsigned int      n_outside = 0;
-    VertexValues<dim> psi;
-    for (unsigned int i = 0; i <= dim; ++i)
-      {
-        const double distance = domain.solid_distance[domain.mesh.cell_nodes[cell][i]];
-        psi[i]                = -distance;
-        n_outside += distance > 0;
-        (distance > 0 ? outside : inside) += std::abs(distance);
-      }
-    if (prm.wall_weighting == "liquid fraction" || n_outside == 0 || n_outside == dim + 1)
-      return 1;
-    const double open = std::max(negative_fraction<dim>(psi), 1e-6);
-    const double kept = prm.element_weighting == "full" ? 1. : 1 / open;
-    if (prm.wall_weighting == "whole")
-      return kept;
-    outside /= n_outside;
-    inside /= dim + 1 - n_outside;
-    return kept / std::max(outside / (outside + inside), 0.05);
   }
 
   template <int dim>

@@ -4,7 +4,7 @@
 #ifndef treacle_fields_liquid_domain_h
 #define treacle_fields_liquid_domain_h
 
-#include <treacle/fields/scene.h>
+#include <treacle/fields/cut_cells.h>
 #include <treacle/fields/state.h>
 
 namespace treacle
@@ -24,11 +24,20 @@ namespace treacle
   class LiquidDomain
   {
   public:
+    /// Where solids hold the liquid: at their walls, which cut cells, or at the nodes
+    /// inside them (Batty & Houston 2011).
+    enum class Hold
+    {
+      walls,
+      nodes
+    };
+
     /// @p minimum_theta bounds the liquid part of a dual edge from below. Throws
     /// a UserError on all ranks where a density or viscosity makes no sense.
     LiquidDomain(const State<dim> &state,
                  const Scene<dim> &scene,
-                 const double      minimum_theta);
+                 const double      minimum_theta,
+                 const Hold        hold = Hold::walls);
 
     const Mesh<dim>  &mesh;
     const Scene<dim> &scene;
@@ -42,6 +51,7 @@ namespace treacle
     std::vector<unsigned char>  is_active_cell;   ///< wet or pressure cell
     std::vector<double>         viscosity;        ///< mean over the liquid part (Pa s)
     std::vector<double>         density;          ///< kg/m^dim
+    CutCells<dim>               cut_cells;        ///< by solids, if their walls hold
 
     // -- faces --
     std::vector<double> open_fraction; ///< alpha: part of the area outside solids and emitters
@@ -65,6 +75,14 @@ namespace treacle
     is_liquid_face(const LocalIndex face) const
     {
       return face_mass[face] > 0;
+    }
+
+    /// Volume of the cell (m^dim), outside solids if their walls hold.
+    double
+    open_volume(const LocalIndex cell) const
+    {
+      return cut_cells.parts(cell).size() == 0 ? mesh.cell_volume[cell] :
+                                                 cut_cells.open_volume(cell);
     }
 
     /// Liquid volume over all ranks (m^dim).

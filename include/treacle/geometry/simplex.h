@@ -49,6 +49,30 @@ namespace treacle
   Point<dim>
   negative_centroid(const std::array<Point<dim>, dim> &x, const VertexValues<dim - 1> &phi);
 
+  /// A vertex i of a simplex, or (j other than i) the cut of the edge from i, where a
+  /// function is negative, to j, where it is not.
+  struct Corner
+  {
+    unsigned char i, j;
+  };
+
+  /// Up to three simplices.
+  template <int dim>
+  struct Parts
+  {
+    std::array<std::array<Corner, dim + 1>, 3> corners;
+    unsigned int                               n = 0;
+  };
+
+  /// The part of the simplex on which the P1 function with vertex values @p phi is
+  /// negative. Of two negative vertices the one that comes first in @p order is not
+  /// cut off from the other's cuts: with the same order in all simplices of a mesh
+  /// their parts meet.
+  template <int dim>
+  Parts<dim>
+  negative_parts(const VertexValues<dim>                   &phi,
+                 const std::array<unsigned int, dim + 1> &order);
+
   /// Volume (m^dim) and first moment (integral of x, m^(dim+1)) of a set.
   template <int dim>
   struct Moments

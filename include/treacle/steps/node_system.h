@@ -31,7 +31,8 @@ namespace treacle
       faces
     };
 
-    /// Weights of the two terms in each cell; an empty one is zero. For -dt D they
+    /// Weights of the two terms in each cell; an empty one is zero. In a cell that a
+    /// solid cuts they are for its open part, whose strain takes the wall into account. For -dt D they
     /// are dt mu V: of the strain for the full stress, of the gradient for
     /// div(mu grad v).
     struct Stiffness
@@ -82,7 +83,8 @@ namespace treacle
                   const Stiffness             &stiffness,
                   const LocalIndex             node,
                   std::vector<LocalIndex>     &columns,
-                  std::vector<Tensor<2, dim>> &blocks) const;
+                  std::vector<Tensor<2, dim>> &blocks,
+                  Tensor<1, dim>              &wall_force) const;
 
     const Numbering                 numbering; ///< of the active nodes
     const std::vector<LocalIndex>  &owned_nodes;

@@ -20,7 +20,7 @@ namespace treacle
       std::string              mapping           = "face fitted FLIP";
       std::string              stress_model      = "full";
       std::string              element_weighting = "liquid fraction";
-      std::string              wall_weighting    = "liquid fraction";
+      std::string              solid_walls       = "cut cells";
       LinearSolver::Parameters solver;
 
       void
@@ -49,10 +49,6 @@ namespace treacle
     /// dt mu V of each cell, in the term that the stress model has.
     typename NodeSystem<dim>::Stiffness
     stiffness(const LiquidDomain<dim> &domain, const double dt) const;
-
-    /// By what the weight of a cell changes if a solid cuts it, so that its wall holds.
-    double
-    wall_factor(const LiquidDomain<dim> &domain, const LocalIndex cell) const;
 
     const Parameters prm;
   };

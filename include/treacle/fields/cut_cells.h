@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_fields_cut_cells_h
+#define treacle_fields_cut_cells_h
+
+#include <treacle/fields/scene.h>
+#include <treacle/mesh/mesh.h>
+
+#include <deal.II/base/array_view.h>
+
+namespace treacle
+{
+  /// The open parts of the cells that solids cut, each as up to three simplices between
+  /// nodes outside the solid and points of its wall, where the velocity is the solid's.
+  /// On faces the simplices of two cells meet, so that P1 functions on them are continuous.
+  template <int dim>
+  class CutCells
+  {
+  public:
+    struct Part
+    {
+      double                                  fraction; ///< of the open part's volume
+      std::array<Tensor<1, dim>, dim + 1>     gradient; ///< of the P1 functions (1/m)
+      std::array<unsigned char, dim + 1>      vertex;   ///< of the cell; on_wall
+      std::array<Tensor<1, dim>, dim + 1>     velocity; ///< of points of the wall (m/s)
+    };
+
+    static constexpr unsigned char on_wall = dim + 1;
+
+    /// No cell is cut.
+    CutCells() = default;
+
+    /// @p solid_distance at the nodes is positive outside solids (m).
+    CutCells(const Mesh<dim>           &mesh,
+             const Scene<dim>          &scene,
+             const std::vector<double> &solid_distance,
+             const double               time);
+
+    /// Of a cell; none where it is not cut.
+    ArrayView<const Part>
+    parts(const LocalIndex cell) const
+    {
+      if (start.empty())
+        return {};
+      return ArrayView<const Part>(all.data() + start[cell], start[cell + 1] - start[cell]);
+    }
+
+    /// The volume outside solids (m^dim) of a cell that is cut.
+    double
+    open_volume(const LocalIndex cell) const
+    {
+      return volume[cell];
+    }
+
+  private:
+    std::vector<unsigned int> start; ///< of each cell in all, and the end
+    std::vector<Part>         all;
+    std::vector<double>       volume;
+  };
+} // namespace treacle
+
+#endif
