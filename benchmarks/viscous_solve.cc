@@ -90,17 +90,17 @@ namespace
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       state.u.local_element(f) = scene.initial_velocity(mesh.face_centre[f]) * mesh.face_normal[f];
     state.u.update_ghost_values();
-    const LiquidDomain<dim> domain(state, scene, prm.projection.minimum_theta);
-    const FaceFit<dim>      fit(prm.face_fit, domain);
+    const LiquidDomain<dim> domain(state, scene, prm.dynamics.projection.minimum_theta);
+    const FaceFit<dim>      fit(prm.dynamics.face_fit, domain);
 
-    prm.viscosity.mapping                   = mapping;
-    prm.viscosity.stress_model              = stress_model;
-    prm.viscosity.solver.maximum_iterations = 20000;
+    prm.dynamics.viscosity.mapping                   = mapping;
+    prm.dynamics.viscosity.stress_model              = stress_model;
+    prm.dynamics.viscosity.solver.maximum_iterations = 20000;
     for (const std::string preconditioner : {"amg", "jacobi"})
       for (const double ratio : {1., 1e2, 1e4})
         {
-          prm.viscosity.solver.preconditioner = preconditioner;
-          print(state, fit, prm.viscosity, ratio);
+          prm.dynamics.viscosity.solver.preconditioner = preconditioner;
+          print(state, fit, prm.dynamics.viscosity, ratio);
         }
   }
 } // namespace

@@ -33,17 +33,7 @@ namespace treacle
     mesh.add_parameters(handler);
     tracking.add_parameters(handler);
     advection.add_parameters(handler);
-    reconstruction.add_parameters(handler);
-    face_fit.add_parameters(handler);
-    viscosity.add_parameters(handler);
-    handler.enter_subsection("Viscosity");
-    handler.add_parameter("Pressure coupling",
-                          coupling,
-                          "Gravity, viscosity and projection in a row, or with a projection before "
-                          "viscosity too, which follows slow flows much better.",
-                          Patterns::Selection("split|split with first projection"));
-    handler.leave_subsection();
-    projection.add_parameters(handler);
+    dynamics.add_parameters(handler);
     mesh_writer.add_parameters(handler);
     surface_writer.add_parameters(handler);
     probes.add_parameters(handler, n_probes);
@@ -91,8 +81,7 @@ namespace treacle
     , scene(prm.scene)
     , time_step(prm.time_step)
     , tracking(prm.tracking)
-    , viscosity(prm.viscosity)
-    , reconstruction(prm.reconstruction)
+    , dynamics(prm.dynamics, prm.steps)
     , mesh_writer(prm.mesh_writer)
     , surface_writer(prm.surface_writer)
     , probes(prm.probes)
@@ -159,7 +148,7 @@ namespace treacle
       }
     tracking.reseed(*state, scene);
 
-    domain = liquid_domain();
+    domain = dynamics.liquid_domain(*state, scene);
     volume = domain->total_volume();
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       if (domain->is_liquid_face(f))
@@ -169,14 +158,14 @@ namespace treacle
         });
     throw_first(comm, error);
     state->u.update_ghost_values();
-    reconstruction.advance(*state, FaceFit<dim>(prm.face_fit, *domain), reach);
+    dynamics.reconstruct(*state, *domain, reach);
 
     // nothing is written before all that can be wrong with the scene was seen
     log        = std::make_unique<Log>(comm, prm.output_directory, false);
     statistics = std::make_unique<Statistics<dim>>(comm, prm.output_directory, probes);
     checkpoint.remove();
     write_parameters();
-    statistics->add_row(*state, *domain, StepInfo());
+    statistics->add_row(*state, *domain, StepInfo<dim>());
     output_frame();
   }
 
@@ -196,7 +185,7 @@ namespace treacle
             "Material/Transport: it must be the one of the run that is resumed.");
     volume                  = progress.scalars.at("volume");
     reach                   = time_step.reach(*state->mesh);
-    domain = liquid_domain();
+    domain = dynamics.liquid_domain(*state, scene);
     log        = std::make_unique<Log>(comm, prm.output_directory, true);
     statistics = std::make_unique<Statistics<dim>>(comm, prm.output_directory, probes);
     statistics->resume(state->step);
@@ -330,18 +319,6 @@ namespace treacle
   }
 
   template <int dim>
-  std::unique_ptr<LiquidDomain<dim>>
-  Simulator<dim>::liquid_domain() const
-  {
-    using Hold = typename LiquidDomain<dim>::Hold;
-    return std::make_unique<LiquidDomain<dim>>(*state,
-                                               scene,
-                                               prm.projection.minimum_theta,
-                                               prm.viscosity.solid_walls == "nodes" ? Hold::nodes :
-                                                                                      Hold::walls);
-  }
-
-  template <int dim>
   void
   Simulator<dim>::keep_surface(const double dt)
   {
@@ -368,7 +345,7 @@ namespace treacle
   Simulator<dim>::step(const double dt)
   {
     Timer wall;
-    info    = StepInfo();
+    info    = StepInfo<dim>();
     info.dt = dt;
     if (prm.steps.surface)
       move_surface(dt);
@@ -376,40 +353,9 @@ namespace treacle
       keep_surface(dt);
     {
       const auto section = timing.section("liquid domain");
-      domain = liquid_domain();
-      forces.advance(*state, *domain, dt);
+      domain = dynamics.liquid_domain(*state, scene);
     }
-    const auto projection = [&]() -> std::unique_ptr<const Projection<dim>> {
-      if (!prm.steps.pressure)
-        return nullptr;
-      const auto section = timing.section("pressure");
-      return std::make_unique<const Projection<dim>>(prm.projection, *domain);
-    }();
-    using Pass        = typename Projection<dim>::Pass;
-    const auto project = [&](const Pass pass) {
-      if (!projection)
-        return;
-      const auto section = timing.section("pressure");
-      info.pressure_iterations += projection->advance(*state, dt, pass);
-    };
-    const bool twice = prm.steps.viscosity && prm.coupling == "split with first projection";
-    if (twice)
-      project(Pass::first);
-    const auto fit = [&] {
-      const auto section = timing.section("face fit");
-      return std::make_unique<const FaceFit<dim>>(prm.face_fit, *domain);
-    }();
-    if (prm.steps.viscosity)
-      {
-        const auto section        = timing.section("viscosity");
-        info.viscosity_iterations = viscosity.advance(*state, *fit, dt);
-      }
-    project(twice ? Pass::correction : Pass::first);
-    info.maximum_divergence = Projection<dim>::maximum_divergence(*state, *domain);
-    {
-      const auto section = timing.section("reconstruction");
-      reconstruction.advance(*state, *fit, reach);
-    }
+    info.dynamics  = dynamics.advance(*state, *domain, dt, reach, timing);
     info.wall_time = wall.wall_time();
     report();
   }
@@ -430,10 +376,13 @@ namespace treacle
                   static_cast<unsigned long long>(state->mesh->cells->size()),
                   info.rebuilt ? " (new)" : "      ",
                   statistics->last("Maximum speed (m/s)"),
-                  info.viscosity_iterations,
-                  info.pressure_iterations,
+                  info.dynamics.viscosity_iterations,
+                  info.dynamics.pressure_iterations,
                   info.wall_time);
     log->line(text);
+    if (info.dynamics.fallbacks > 0)
+      log->line("warning: the coupled solve stagnated; this step was split with first projection. A "
+                "smaller Maximum time step, or Linear solvers/Coupled/Maximum iterations, may help.");
   }
 
   template <int dim>

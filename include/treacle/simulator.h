@@ -12,13 +12,9 @@
 #include <treacle/io/surface_writer.h>
 #include <treacle/mesh/imported_mesh.h>
 #include <treacle/steps/advection.h>
-#include <treacle/steps/forces.h>
-#include <treacle/steps/projection.h>
-#include <treacle/steps/reconstruction.h>
-#include <treacle/steps/step_switches.h>
+#include <treacle/steps/dynamics.h>
 #include <treacle/steps/surface_tracking.h>
 #include <treacle/steps/time_step.h>
-#include <treacle/steps/viscosity.h>
 
 namespace treacle
 {
@@ -39,11 +35,7 @@ namespace treacle
       typename Octree<dim>::Parameters          mesh;
       typename SurfaceTracking<dim>::Parameters tracking;
       typename Advection<dim>::Parameters       advection;
-      typename Reconstruction<dim>::Parameters  reconstruction;
-      typename FaceFit<dim>::Parameters         face_fit;
-      typename Viscosity<dim>::Parameters       viscosity;
-      std::string                               coupling = "split with first projection";
-      typename Projection<dim>::Parameters      projection;
+      typename Dynamics<dim>::Parameters        dynamics;
       typename MeshWriter<dim>::Parameters      mesh_writer;
       typename SurfaceWriter<dim>::Parameters   surface_writer;
       typename Probes<dim>::Parameters          probes;
@@ -100,9 +92,6 @@ namespace treacle
     void
     move_surface(const double dt);
 
-    std::unique_ptr<LiquidDomain<dim>>
-    liquid_domain() const;
-
     /// Velocity and material move on, if they do, but neither surface nor mesh.
     void
     keep_surface(const double dt);
@@ -121,9 +110,7 @@ namespace treacle
 
     const TimeStep<dim>        time_step;
     const SurfaceTracking<dim> tracking;
-    const Forces<dim>          forces{};
-    const Viscosity<dim>       viscosity;
-    const Reconstruction<dim>  reconstruction;
+    const Dynamics<dim>        dynamics;
 
     const MeshWriter<dim>            mesh_writer;
     const SurfaceWriter<dim>         surface_writer;
@@ -138,7 +125,7 @@ namespace treacle
     unsigned int                       frame  = 0; ///< the last one written
     double                             volume = 0; ///< that the liquid should have (m^dim)
     double                             reach  = 0; ///< of velocity and distance from the surface (m)
-    StepInfo                           info;
+    StepInfo<dim>                           info;
   };
 } // namespace treacle
 

@@ -172,7 +172,7 @@ namespace treacle
   void
   Statistics<dim>::add_row(const State<dim>        &state,
                            const LiquidDomain<dim> &domain,
-                           const StepInfo          &info)
+                           const StepInfo<dim>          &info)
   {
     const Measures<dim> measures = measure(state, domain);
     const double        volume   = rounded(measures.volume);
@@ -203,11 +203,12 @@ namespace treacle
     add.motion("Nodal ", measures.of_nodes);
     add.number("Viscous dissipation (W)", measures.dissipation);
     add.number("Maximum speed (m/s)", measures.maximum_speed);
-    add.number("Maximum divergence (1/s)", info.maximum_divergence);
+    add.number("Maximum divergence (1/s)", info.dynamics.maximum_divergence);
     add.count("Clamped faces", domain.n_clamped_faces);
     add.count("Rebuilds", n_rebuilds);
-    add.count("Viscosity iterations", info.viscosity_iterations);
-    add.count("Pressure iterations", info.pressure_iterations);
+    add.count("Viscosity iterations", info.dynamics.viscosity_iterations);
+    add.count("Fallbacks", info.dynamics.fallbacks);
+    add.count("Pressure iterations", info.dynamics.pressure_iterations);
     add.number("Wall time (s)", info.wall_time);
     const auto values = probes.read(state, domain);
     for (unsigned int k = 0; k < values.size(); ++k)

@@ -34,6 +34,7 @@ namespace treacle
   void
   NodeSystem<dim>::assemble_node(const Mass                   mass,
                                  const Stiffness             &stiffness,
+                                 const std::vector<double>   &face_mass,
                                  const LocalIndex             node,
                                  std::vector<LocalIndex>     &columns,
                                  std::vector<Tensor<2, dim>> &blocks,
@@ -101,7 +102,7 @@ namespace treacle
                 std::find(nodes.begin(), nodes.end(), node) == nodes.end())
               continue;
             const Tensor<1, dim> &n = mesh.face_normal[f];
-            const Tensor<2, dim>  m = domain.face_mass[f] / (dim * dim) * outer_product(n, n);
+            const Tensor<2, dim>  m = face_mass[f] / (dim * dim) * outer_product(n, n);
             for (const LocalIndex other : nodes)
               block_of(other) += m;
           }
@@ -111,7 +112,9 @@ namespace treacle
 
   template <int dim>
   typename NodeSystem<dim>::Assembled
-  NodeSystem<dim>::assemble(const Mass mass, const Stiffness &stiffness) const
+  NodeSystem<dim>::assemble(const Mass                 mass,
+                            const Stiffness           &stiffness,
+                            const std::vector<double> &face_mass) const
   {
     const Mesh<dim>            &mesh = domain.mesh;
     Assembled                   result;
@@ -132,7 +135,7 @@ namespace treacle
     for (unsigned int i = 0; i < owned_nodes.size(); ++i)
       {
         const LocalIndex node = owned_nodes[i];
-        assemble_node(mass, stiffness, node, columns, blocks, wall_force);
+        assemble_node(mass, stiffness, face_mass, node, columns, blocks, wall_force);
         for (unsigned int a = 0; a < dim; ++a)
           {
             const GlobalIndex row = dim * number[node] + a;
@@ -203,7 +206,7 @@ namespace treacle
 
   template <int dim>
   std::vector<Tensor<1, dim>>
-  NodeSystem<dim>::face_momentum(const Vector &u) const
+  NodeSystem<dim>::face_momentum(const Vector &u, const std::vector<double> &face_mass) const
   {
     const Mesh<dim>            &mesh = domain.mesh;
     std::vector<Tensor<1, dim>> momentum(mesh.node_position.size());
@@ -211,7 +214,7 @@ namespace treacle
     for (LocalIndex f = 0; f < mesh.face_nodes.size(); ++f)
       if (domain.is_liquid_face(f))
         for (const LocalIndex node : mesh.face_nodes[f])
-          momentum[node] += domain.face_mass[f] / dim * u.local_element(f) * mesh.face_normal[f];
+          momentum[node] += face_mass[f] / dim * u.local_element(f) * mesh.face_normal[f];
     return momentum;
   }
 

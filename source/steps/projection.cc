@@ -199,40 +199,74 @@ namespace treacle
   }
 
   template <int dim>
+  void
+  Projection<dim>::take_off_mean(Vector &q) const
+  {
+    std::vector<double> volume;
+    for (const LocalIndex c : owned_cells)
+      volume.push_back(domain.mesh.cell_volume[c]);
+    take_off_mean(q, volume);
+  }
+
+  template <int dim>
+  void
+  Projection<dim>::balance(Vector &b) const
+  {
+    for (const Pocket &pocket : pockets)
+      {
+        double excess = 0;
+        for (const unsigned int i : pocket.rows)
+          excess += b.local_element(i);
+        excess = Utilities::MPI::sum(excess, domain.mesh.communicator()) / pocket.size;
+        for (const unsigned int i : pocket.rows)
+          b.local_element(i) -= excess;
+      }
+  }
+
+  template <int dim>
+  void
+  Projection<dim>::set_walls(Vector &u) const
+  {
+    for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
+      if (domain.open_fraction[f] == 0)
+        u.local_element(f) = domain.solid_velocity[f];
+    u.update_ghost_values();
+  }
+
+  template <int dim>
+  double
+  Projection<dim>::linear_outflow(const LocalIndex c, const Vector &u) const
+  {
+    double flux = 0;
+    for (const LocalIndex f : domain.mesh.cell_faces[c])
+      if (domain.is_liquid_face(f))
+        flux += (domain.mesh.face_cells[f][0] == c ? 1 : -1) * domain.open_fraction[f] *
+                domain.mesh.face_area[f] * u.local_element(f);
+    return flux;
+  }
+
+  template <int dim>
   unsigned int
   Projection<dim>::advance(State<dim> &state, const double dt, const Pass pass) const
   {
     const Mesh<dim> &mesh = domain.mesh;
     Vector           b(rows, mesh.communicator()), q(rows, mesh.communicator());
-    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
-      if (domain.open_fraction[f] == 0)
-        state.u.local_element(f) = domain.solid_velocity[f];
-    state.u.update_ghost_values();
+    set_walls(state.u);
     for (unsigned int i = 0; i < owned_cells.size(); ++i)
       {
         b.local_element(i) = -outflow(domain, owned_cells[i], state.u);
         if (pass == Pass::first)
           q.local_element(i) = state.pressure.local_element(owned_cells[i]) * dt;
       }
-    for (const Pocket &pocket : pockets)
-      {
-        double excess = 0;
-        for (const unsigned int i : pocket.rows)
-          excess += b.local_element(i);
-        excess = Utilities::MPI::sum(excess, mesh.communicator()) / pocket.size;
-        for (const unsigned int i : pocket.rows)
-          b.local_element(i) -= excess;
-      }
+    balance(b);
     // the matrix makes the pressure of the pinned cells 0, and so must the first guess; but
     // which cells these are depends on the partition
-    std::vector<double> is_pinned(owned_cells.size(), 0.), volume;
+    std::vector<double> is_pinned(owned_cells.size(), 0.);
     for (const unsigned int i : pinned)
       is_pinned[i] = 1;
-    for (const LocalIndex c : owned_cells)
-      volume.push_back(mesh.cell_volume[c]);
     take_off_mean(q, is_pinned);
     const unsigned int iterations = solver->solve(q, b);
-    take_off_mean(q, volume);
+    take_off_mean(q);
 
     Vector q_cell = mesh.zeros(mesh.cells);
     for (unsigned int i = 0; i < owned_cells.size(); ++i)
@@ -241,17 +275,7 @@ namespace treacle
     const Vector q_beyond = extended(q_cell);
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       if (domain.is_liquid_face(f))
-        {
-          const auto &cells = mesh.face_cells[f];
-          // faces of wet cells that touch no pressure cell are no unknowns of the
-          // projection, but must not fall freely through liquid at rest
-          const bool    is_unknown = domain.is_pressure_cell[cells[0]] || domain.is_pressure_cell[cells[1]];
-          const Vector &p          = is_unknown ? q_cell : q_beyond;
-          const double  k          = domain.open_fraction[f] * mesh.face_area[f] /
-                           domain.face_mass[f] * (is_unknown ? 1 : domain.theta[f]);
-          state.u.local_element(f) -=
-            k * (p.local_element(cells[1]) - p.local_element(cells[0]));
-        }
+        state.u.local_element(f) += impulse(f, q_cell, q_beyond);
     state.u.update_ghost_values();
     for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
       state.pressure.local_element(c) =

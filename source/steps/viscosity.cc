@@ -3,6 +3,7 @@
 
 #include <treacle/steps/auxiliary_space.h>
 #include <treacle/geometry/simplex.h>
+#include <treacle/steps/hybrid.h>
 #include <treacle/steps/viscosity.h>
 
 namespace treacle
@@ -53,9 +54,10 @@ namespace treacle
       "node velocity to the faces, exact for rigid motions, or by least squares at "
       "each node; the faces receive the change (FLIP) or the value (PIC). Face "
       "coupled: the least squares are part of the implicit system, whose unknowns "
-      "are the faces.",
+      "are the faces. Hybrid: the nodes drag the faces along in one implicit system, exact for "
+      "rigid motions too.",
       Patterns::Selection(
-        "face coupled|face fitted FLIP|face fitted PIC|node FLIP|node PIC"));
+        "face coupled|face fitted FLIP|face fitted PIC|hybrid|node FLIP|node PIC"));
     prm.add_parameter("Stress model",
                       stress_model,
                       "Full: the stress mu (grad u + grad u^T). Laplacian: div(mu grad u) for "
@@ -82,7 +84,8 @@ namespace treacle
   unsigned int
   Viscosity<dim>::advance(State<dim> &state, const FaceFit<dim> &fit, const double dt) const
   {
-    return prm.mapping == "face coupled"        ? advance_face_coupled(state, fit, dt) :
+    return prm.mapping == "hybrid"              ? advance_hybrid(state, fit, dt) :
+           prm.mapping == "face coupled"        ? advance_face_coupled(state, fit, dt) :
            prm.mapping.rfind("node", 0) == 0 ? advance_nodes(state, fit, dt) :
                                                 advance_face_fitted(state, fit, dt);
   }
@@ -124,6 +127,27 @@ namespace treacle
                  fit.system.face_momentum(state.u),
                  flip,
                  prm.solver);
+  }
+
+  template <int dim>
+  unsigned int
+  Viscosity<dim>::advance_hybrid(State<dim> &state, const FaceFit<dim> &fit, const double dt) const
+  {
+    const auto         stiffness = this->stiffness(fit.domain, dt);
+    const Hybrid<dim>  hybrid(fit.system, stiffness, dt, Hybrid<dim>::Faces::all);
+    const LinearSolver solver(prm.solver,
+                              "Viscosity",
+                              *hybrid.stiff.matrix,
+                              fit.system.stress_free_motions(stiffness));
+    Vector             x          = fit.system.unknowns(state.v);
+    const unsigned int iterations = solver.solve(x, hybrid.right_hand_side(state.u, state.v));
+    fit.system.to_nodes(x, state.v);
+    for (LocalIndex f = 0; f < fit.domain.mesh.n_owned_faces(); ++f)
+      if (fit.domain.is_liquid_face(f))
+        state.u.local_element(f) +=
+          hybrid.share[f] * (face_velocity(fit.domain.mesh, state.v, f) - state.u.local_element(f));
+    state.u.update_ghost_values();
+    return iterations;
   }
 
   template <int dim>

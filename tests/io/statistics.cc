@@ -38,9 +38,9 @@ check(const MPI_Comm &comm, const bool with_names)
   const Scene<dim>  scene(tests::ball_scene<dim>());
   State<dim>        state = tests::ball_state<dim>(comm);
   const std::string name  = "./statistics";
-  StepInfo          info;
+  StepInfo<dim>     info;
   info.dt                   = 0.25;
-  info.viscosity_iterations = 7;
+  info.dynamics.viscosity_iterations = 7;
   info.rebuilt              = true;
 
   Statistics<dim> statistics(comm, ".");

@@ -20,8 +20,8 @@ namespace tests
       : prm(parse<dim>(text, n_solids))
       , scene(prm.scene)
       , state(make_state(comm))
-      , domain(state, scene, prm.projection.minimum_theta)
-      , fit(prm.face_fit, domain)
+      , domain(state, scene, prm.dynamics.projection.minimum_theta)
+      , fit(prm.dynamics.face_fit, domain)
     {}
 
     /// Set the face velocity to that of a field.
@@ -85,7 +85,7 @@ namespace tests
     body.set_velocity([&](const Point<dim> &x) { return body.scene.initial_velocity(x); });
     body.fit.solve(body.state.u, body.state.v);
     const Measures<dim> before = measure(body.state, body.domain);
-    Viscosity<dim>(body.prm.viscosity).advance(body.state, body.fit, 0.01);
+    Viscosity<dim>(body.prm.dynamics.viscosity).advance(body.state, body.fit, 0.01);
     const Measures<dim> after  = measure(body.state, body.domain);
     double              change = 0, size = 0;
     for (unsigned int k = 0; k < Motion<dim>::n_rotations; ++k)

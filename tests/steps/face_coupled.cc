@@ -125,7 +125,7 @@ namespace
     LiquidDomain<dim> &domain = body.domain;
     std::fill(domain.prescribed.begin(), domain.prescribed.end(), velocity);
     body.set_velocity([&](const Point<dim> &) { return velocity; });
-    Viscosity<dim>(body.prm.viscosity).advance(body.state, body.fit, 0.1);
+    Viscosity<dim>(body.prm.dynamics.viscosity).advance(body.state, body.fit, 0.1);
 
     double           error = 0;
     const Mesh<dim> &mesh  = domain.mesh;

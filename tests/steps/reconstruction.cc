@@ -48,7 +48,7 @@ namespace
     for (const auto &field : {&rigid<dim>, &smooth<dim>})
       {
         body.set_velocity(field);
-        Reconstruction<dim>(body.prm.reconstruction).advance(body.state, body.fit, 0);
+        Reconstruction<dim>(body.prm.dynamics.reconstruction).advance(body.state, body.fit, 0);
         double error = 0, size = 0, worst = 0;
         for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
           if (body.domain.is_active_node[node])

@@ -52,7 +52,7 @@ namespace
       return Utilities::MPI::sum(sum, comm);
     };
     const double         dt = 1e-3 * radius * radius; // nu = 1
-    const Viscosity<2> viscosity(body.prm.viscosity);
+    const Viscosity<2> viscosity(body.prm.dynamics.viscosity);
     for (unsigned int step = 0; step < 10; ++step)
       viscosity.advance(body.state, body.fit, dt);
     return (std::pow(part(start) / part(body.state.u), 0.1) - 1) / dt * radius * radius;

@@ -63,7 +63,7 @@ namespace
       const Case<dim> solution = exact(x - centre);
       return solution.velocity - dt * solution.force;
     });
-    Viscosity<dim>(body.prm.viscosity).advance(body.state, body.fit, dt);
+    Viscosity<dim>(body.prm.dynamics.viscosity).advance(body.state, body.fit, dt);
 
     const Mesh<dim> &mesh  = *body.state.mesh;
     double           error = 0, size = 0, worst = 0, largest = 0;

@@ -5,19 +5,20 @@
 #define treacle_io_statistics_h
 
 #include <treacle/io/probes.h>
+#include <treacle/steps/dynamics.h>
 
 namespace treacle
 {
   /// What a step reports beside the state it leaves.
+  template <int dim>
   struct StepInfo
   {
     double       dt                   = 0; ///< s
-    unsigned int viscosity_iterations = 0;
-    unsigned int pressure_iterations  = 0;
     bool         rebuilt              = false; ///< the mesh is new
     double       emitted              = 0;     ///< volume from emitters (m^dim)
-    double       maximum_divergence   = 0;     ///< 1/s
     double       wall_time            = 0;     ///< s
+
+    typename Dynamics<dim>::Info dynamics;
   };
 
   /// The table `statistics` in the output directory, one row a step. Rows are
@@ -49,7 +50,7 @@ namespace treacle
     void
     add_row(const State<dim>        &state,
             const LiquidDomain<dim> &domain,
-            const StepInfo          &info);
+            const StepInfo<dim>     &info);
 
     /// Of the last row, on all ranks, by the name of its column.
     double

@@ -51,7 +51,16 @@ namespace treacle
     /// The sum of a mass and a stiffness. Without strain and P^T M_f P the
     /// components are decoupled, and so are they in the matrix.
     Assembled
-    assemble(const Mass mass, const Stiffness &stiffness) const;
+    assemble(const Mass mass, const Stiffness &stiffness) const
+    {
+      return assemble(mass, stiffness, domain.face_mass);
+    }
+
+    /// With another weight of each face in the place of M_f.
+    Assembled
+    assemble(const Mass                 mass,
+             const Stiffness           &stiffness,
+             const std::vector<double> &face_mass) const;
 
     /// The unknowns of v, prescribed components set.
     Vector
@@ -68,7 +77,20 @@ namespace treacle
 
     /// P^T M_f u at owned nodes (kg m/s).
     std::vector<Tensor<1, dim>>
-    face_momentum(const Vector &u) const;
+    face_momentum(const Vector &u) const
+    {
+      return face_momentum(u, domain.face_mass);
+    }
+
+    std::vector<Tensor<1, dim>>
+    face_momentum(const Vector &u, const std::vector<double> &face_mass) const;
+
+    /// Active and owned, in the order of the rows.
+    const std::vector<LocalIndex> &
+    nodes() const
+    {
+      return owned_nodes;
+    }
 
     /// Motions without stress, zero at prescribed components: the rigid ones, or
     /// translations alone where there is no strain term.
@@ -81,6 +103,7 @@ namespace treacle
     void
     assemble_node(const Mass                   mass,
                   const Stiffness             &stiffness,
+                  const std::vector<double>   &face_mass,
                   const LocalIndex             node,
                   std::vector<LocalIndex>     &columns,
                   std::vector<Tensor<2, dim>> &blocks,

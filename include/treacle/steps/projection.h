@@ -44,20 +44,84 @@ namespace treacle
     unsigned int
     advance(State<dim> &state, const double dt, const Pass pass) const;
 
+    // -- the discrete operators, for a solve that couples pressure with viscosity --
+
+    /// The owned pressure cells, in the order of the rows.
+    const std::vector<LocalIndex> &
+    cells() const
+    {
+      return owned_cells;
+    }
+
+    const IndexSet &
+    pressure_rows() const
+    {
+      return rows;
+    }
+
+    /// Does the pressure act on this liquid face? Not on those of wet cells that touch no
+    /// pressure cell.
+    bool
+    is_unknown(const LocalIndex face) const
+    {
+      const auto &cells = domain.mesh.face_cells[face];
+      return domain.is_pressure_cell[cells[0]] || domain.is_pressure_cell[cells[1]];
+    }
+
+    /// Of q = dt p on an owned liquid face (kg m/s).
+    double
+    force(const LocalIndex face, const Vector &q) const
+    {
+      const auto &cells = domain.mesh.face_cells[face];
+      return domain.open_fraction[face] * domain.mesh.face_area[face] *
+             (q.local_element(cells[0]) - q.local_element(cells[1]));
+    }
+
+    /// What q = dt p adds to the velocity of an owned liquid face (m/s).
+    double
+    impulse(const LocalIndex face, const Vector &q, const Vector &q_beyond) const
+    {
+      return is_unknown(face) ? force(face, q) / domain.face_mass[face] :
+                                domain.theta[face] * force(face, q_beyond) / domain.face_mass[face];
+    }
+
+    /// q at all dual centres: beyond the surface the liquid's pressure goes on
+    /// in proportion to phi, as the ghost fluid has it across a face.
+    Vector
+    extended(const Vector &q) const;
+
+    /// Volume flux out of a cell (m^dim/s), through solids too.
+    static double
+    outflow(const LiquidDomain<dim> &domain, const LocalIndex cell, const Vector &u);
+
+    /// The same through liquid faces alone.
+    double
+    linear_outflow(const LocalIndex cell, const Vector &u) const;
+
+    /// u on the faces that solids close, and ghosts.
+    void
+    set_walls(Vector &u) const;
+
+    /// Take its mean off the right-hand side of each closed pocket.
+    void
+    balance(Vector &b) const;
+
+    /// Take the mean of dt p off in each closed pocket.
+    void
+    take_off_mean(Vector &q) const;
+
+    /// z = the preconditioner of the pressure's matrix times r.
+    void
+    precondition(Vector &z, const Vector &r) const
+    {
+      solver->precondition(z, r);
+    }
+
     /// Largest |divergence| of a pressure cell over all ranks (1/s).
     static double
     maximum_divergence(const State<dim> &state, const LiquidDomain<dim> &domain);
 
   private:
-    /// Volume flux out of a cell (m^dim/s).
-    static double
-    outflow(const LiquidDomain<dim> &domain, const LocalIndex cell, const Vector &u);
-
-    /// dt p at all dual centres: beyond the surface the liquid's pressure goes on
-    /// in proportion to phi, as the ghost fluid has it across a face.
-    Vector
-    extended(const Vector &q) const;
-
     /// Take its weighted mean off dt p of each closed pocket; one weight a row.
     void
     take_off_mean(Vector &q, const std::vector<double> &weight) const;

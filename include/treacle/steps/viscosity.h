@@ -36,19 +36,22 @@ namespace treacle
     unsigned int
     advance(State<dim> &state, const FaceFit<dim> &fit, const double dt) const;
 
+    /// dt mu V of each cell, in the term that the stress model has.
+    typename NodeSystem<dim>::Stiffness
+    stiffness(const LiquidDomain<dim> &domain, const double dt) const;
+
   private:
     unsigned int
     advance_face_fitted(State<dim> &state, const FaceFit<dim> &fit, const double dt) const;
+
+    unsigned int
+    advance_hybrid(State<dim> &state, const FaceFit<dim> &fit, const double dt) const;
 
     unsigned int
     advance_nodes(State<dim> &state, const FaceFit<dim> &fit, const double dt) const;
 
     unsigned int
     advance_face_coupled(State<dim> &state, const FaceFit<dim> &fit, const double dt) const;
-
-    /// dt mu V of each cell, in the term that the stress model has.
-    typename NodeSystem<dim>::Stiffness
-    stiffness(const LiquidDomain<dim> &domain, const double dt) const;
 
     const Parameters prm;
   };

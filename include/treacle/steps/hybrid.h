@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_steps_hybrid_h
+#define treacle_steps_hybrid_h
+
+#include <treacle/steps/node_system.h>
+
+namespace treacle
+{
+  /// Viscosity at the nodes, which drags the faces along: the velocity u of the faces and
+  /// v of the nodes make
+  ///
+  ///   1/2 |u - u*|^2_M + 1/2 v·K v + 1/2 |u - P v|^2_N,   K = -dt D, N = drag nu dt / h^2 M,
+  ///
+  /// least. What P v cannot follow decays at the rate drag nu / h^2, smooth motion
+  /// as K says, to second order in h; no force acts on a rigid motion, and none is created.
+  /// With the share s = N / (M + N) it is
+  ///
+  ///   (K + P^T s M P) v = P^T s M u*,   u = (1 - s) u* + s P v.
+  template <int dim>
+  class Hybrid
+  {
+  public:
+    /// On which faces the drag acts in the system for v: on those of a coupled solve only
+    /// where there is a pressure beside them.
+    enum class Faces
+    {
+      all,
+      beside_pressure
+    };
+
+    Hybrid(const NodeSystem<dim>                     &system,
+           const typename NodeSystem<dim>::Stiffness &stiffness,
+           const double                               dt,
+           const Faces                                faces);
+
+    /// P^T s M u*, and what prescribed values contribute. Faces that take no part pull v,
+    /// if nothing else does, to where it is.
+    Vector
+    right_hand_side(const Vector &u, const NodeVector<dim> &v) const;
+
+    const NodeSystem<dim>               &system;
+    std::vector<double>                  share; ///< s of each face, owned or ghost
+    typename NodeSystem<dim>::Assembled  stiff; ///< K + P^T s M P
+
+  private:
+    bool
+    takes_part(const LocalIndex face) const;
+
+    const Faces         faces;
+    std::vector<double> weight; ///< s M of each face in the system
+  };
+} // namespace treacle
+
+#endif

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/steps/dynamics.h>
+
+namespace treacle
+{
+  template <int dim>
+  void
+  Dynamics<dim>::Parameters::add_parameters(ParameterHandler &handler)
+  {
+    reconstruction.add_parameters(handler);
+    face_fit.add_parameters(handler);
+    viscosity.add_parameters(handler);
+    handler.enter_subsection("Viscosity");
+    handler.add_parameter("Pressure coupling",
+                          coupling,
+                          "Gravity, viscosity and projection in a row, or with a projection before "
+                          "viscosity too, which follows slow flows much better, or viscosity and "
+                          "pressure in one solve with the mapping hybrid, whatever Mapping says.",
+                          Patterns::Selection("split|split with first projection|coupled"));
+    handler.add_parameter("Time scheme",
+                          time_scheme,
+                          "Of forces, viscosity and pressure: backward Euler, of first order, or "
+                          "SDIRK2, two such stages of 0.29 of the time step each, of second order "
+                          "(where they are coupled) and as stable.",
+                          Patterns::Selection("backward Euler|SDIRK2"));
+    handler.leave_subsection();
+    projection.add_parameters(handler);
+    coupled.add_parameters(handler);
+  }
+
+  template <int dim>
+  std::unique_ptr<LiquidDomain<dim>>
+  Dynamics<dim>::liquid_domain(const State<dim> &state, const Scene<dim> &scene) const
+  {
+    using Hold = typename LiquidDomain<dim>::Hold;
+    return std::make_unique<LiquidDomain<dim>>(state,
+                                               scene,
+                                               prm.projection.minimum_theta,
+                                               prm.viscosity.solid_walls == "nodes" ? Hold::nodes :
+                                                                                      Hold::walls);
+  }
+
+  template <int dim>
+  struct Dynamics<dim>::Stage
+  {
+    const Dynamics                        &dynamics;
+    const LiquidDomain<dim>               &domain;
+    Timing                                &timing;
+    std::unique_ptr<const Projection<dim>> projection = nullptr;
+    std::unique_ptr<const FaceFit<dim>>    fit        = nullptr;
+    Info                                   info{};
+
+    void
+    project(State<dim> &state, const double dt, const typename Projection<dim>::Pass pass)
+    {
+      if (!projection)
+        return;
+      const auto section = timing.section("pressure");
+      info.pressure_iterations += projection->advance(state, dt, pass);
+    }
+
+    void
+    split(State<dim> &state, const double dt, const bool with_first)
+    {
+      using Pass       = typename Projection<dim>::Pass;
+      const bool twice = dynamics.switches.viscosity && with_first;
+      if (twice)
+        project(state, dt, Pass::first);
+      if (dynamics.switches.viscosity)
+        {
+          const auto section = timing.section("viscosity");
+          info.viscosity_iterations += dynamics.viscosity.advance(state, *fit, dt);
+        }
+      project(state, dt, twice ? Pass::correction : Pass::first);
+    }
+
+    /// Returns false where the solve stagnates.
+    bool
+    couple(State<dim> &state, const double dt)
+    {
+      const auto         section = timing.section("coupled");
+      const Coupled<dim> coupled(dynamics.prm.coupled,
+                                 dynamics.prm.viscosity.solver,
+                                 fit->system,
+                                 dynamics.viscosity.stiffness(domain, dt),
+                                 *projection,
+                                 dt);
+      const auto         iterations = coupled.advance(state);
+      if (iterations)
+        info.viscosity_iterations += *iterations;
+      return iterations.has_value();
+    }
+
+    void
+    advance(State<dim> &state, const double dt)
+    {
+      dynamics.forces.advance(state, domain, dt);
+      if (dynamics.prm.coupling != "coupled" || !projection || !dynamics.switches.viscosity)
+        split(state, dt, dynamics.prm.coupling != "split");
+      else if (couple(state, dt))
+        // what the tolerance of the coupled solve leaves
+        project(state, dt, Projection<dim>::Pass::correction);
+      else
+        {
+          ++info.fallbacks;
+          split(state, dt, true);
+        }
+    }
+  };
+
+  template <int dim>
+  typename Dynamics<dim>::Info
+  Dynamics<dim>::advance(State<dim>              &state,
+                         const LiquidDomain<dim> &domain,
+                         const double             dt,
+                         const double             reach,
+                         Timing                  &timing) const
+  {
+    Stage stage{*this, domain, timing};
+    if (switches.pressure)
+      {
+        const auto section = timing.section("pressure");
+        stage.projection   = std::make_unique<const Projection<dim>>(prm.projection, domain);
+      }
+    {
+      const auto section = timing.section("face fit");
+      stage.fit          = std::make_unique<const FaceFit<dim>>(prm.face_fit, domain);
+    }
+    if (prm.time_scheme == "backward Euler")
+      stage.advance(state, dt);
+    else
+      {
+        // Alexander, SIAM J. Numer. Anal. 14 (1977): the second stage starts where the
+        // first one, of part gamma, points to
+        const double gamma = 1 - std::sqrt(0.5), start = (1 - gamma) / gamma;
+        const Vector u = state.u;
+        stage.advance(state, gamma * dt);
+        for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
+          if (domain.is_liquid_face(f))
+            state.u.local_element(f) =
+              u.local_element(f) + start * (state.u.local_element(f) - u.local_element(f));
+        state.u.update_ghost_values();
+        stage.advance(state, gamma * dt);
+      }
+    stage.info.maximum_divergence = Projection<dim>::maximum_divergence(state, domain);
+    const auto section            = timing.section("reconstruction");
+    reconstruction.advance(state, *stage.fit, reach);
+    return stage.info;
+  }
+
+  template class Dynamics<2>;
+  template class Dynamics<3>;
+} // namespace treacle

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/fields/mapping.h>
+#include <treacle/steps/hybrid.h>
+
+#include <algorithm>
+
+namespace treacle
+{
+  namespace
+  {
+    // measured: doc/method.md
+    constexpr double drag = 20;
+    /// Bounds the drag from below, for liquids that have no viscosity.
+    constexpr double least_share = 1e-8;
+    /// Weight of a face that takes no part, of its mass.
+    constexpr double idle = 1e-8;
+  } // namespace
+
+  template <int dim>
+  Hybrid<dim>::Hybrid(const NodeSystem<dim>                     &system,
+                      const typename NodeSystem<dim>::Stiffness &stiffness,
+                      const double                               dt,
+                      const Faces                                faces)
+    : system(system)
+    , faces(faces)
+  {
+    const LiquidDomain<dim> &domain = system.domain;
+    const Mesh<dim>         &mesh   = domain.mesh;
+    Vector                   part = mesh.zeros(mesh.faces), weights = mesh.zeros(mesh.faces);
+    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
+      {
+        if (!domain.is_liquid_face(f))
+          continue;
+        double       nu = 0, h = std::numeric_limits<double>::max();
+        unsigned int n = 0;
+        for (const LocalIndex c : mesh.face_cells[f])
+          if (c != invalid && domain.is_active_cell[c])
+            {
+              nu += domain.viscosity[c] / domain.density[c];
+              h = std::min(h, mesh.cell_size[c]);
+              ++n;
+            }
+        const double ratio = n > 0 ? drag * nu / n * dt / (h * h) : 0;
+        const double s           = std::max(ratio / (1 + ratio), least_share);
+        part.local_element(f)    = s;
+        weights.local_element(f) = domain.face_mass[f] * (takes_part(f) ? s : idle * s);
+      }
+    part.update_ghost_values();
+    weights.update_ghost_values();
+    for (LocalIndex f = 0; f < mesh.face_cells.size(); ++f)
+      {
+        share.push_back(part.local_element(f));
+        weight.push_back(weights.local_element(f));
+      }
+    stiff = system.assemble(NodeSystem<dim>::Mass::faces, stiffness, weight);
+  }
+
+  template <int dim>
+  bool
+  Hybrid<dim>::takes_part(const LocalIndex face) const
+  {
+    if (faces == Faces::all)
+      return true;
+    const auto &cells = system.domain.mesh.face_cells[face];
+    return std::any_of(cells.begin(), cells.end(), [&](const LocalIndex c) {
+      return c != invalid && system.domain.is_pressure_cell[c];
+    });
+  }
+
+  template <int dim>
+  Vector
+  Hybrid<dim>::right_hand_side(const Vector &u, const NodeVector<dim> &v) const
+  {
+    const Mesh<dim> &mesh = system.domain.mesh;
+    Vector           pull = mesh.zeros(mesh.faces);
+    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
+      if (system.domain.is_liquid_face(f))
+        pull.local_element(f) = takes_part(f) ? u.local_element(f) : face_velocity(mesh, v, f);
+    pull.update_ghost_values();
+    return system.right_hand_side(system.face_momentum(pull, weight), stiff);
+  }
+
+  template class Hybrid<2>;
+  template class Hybrid<3>;
+} // namespace treacle
