@@ -380,6 +380,7 @@ namespace treacle
       const auto section = timing.section("pressure");
       info.pressure_iterations += projection->advance(*state, dt, pass);
     };
+    Reactions<dim> reactions(*domain, state->time);
     const bool twice = prm.steps.viscosity && prm.coupling == "split with first projection";
     if (twice)
       project(Pass::first);
@@ -390,9 +391,12 @@ namespace treacle
     if (prm.steps.viscosity)
       {
         const auto section        = timing.section("viscosity");
-        info.viscosity_iterations = viscosity.advance(*state, *fit, dt);
+        info.viscosity_iterations = viscosity.advance(*state, *fit, dt, &reactions);
       }
     project(twice ? Pass::correction : Pass::first);
+    if (projection)
+      reactions.add_pressure(state->pressure, dt);
+    loads = reactions.loads(dt);
     info.maximum_divergence = Projection<dim>::maximum_divergence(*state, *domain);
     {
       const auto section = timing.section("reconstruction");
@@ -406,7 +410,7 @@ namespace treacle
   void
   Simulator<dim>::report()
   {
-    statistics->add_row(*state, *domain, info);
+    statistics->add_row(*state, *domain, info, loads);
     char text[200];
     std::snprintf(text,
                   sizeof text,

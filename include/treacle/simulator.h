@@ -136,6 +136,7 @@ namespace treacle
     double                             volume = 0; ///< that the liquid should have (m^dim)
     double                             reach  = 0; ///< of velocity and distance from the surface (m)
     StepInfo                           info;
+    std::vector<Load<dim>>             loads; ///< in the step, on solids and walls
   };
 } // namespace treacle
 

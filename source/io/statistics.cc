@@ -170,9 +170,10 @@ namespace treacle
 
   template <int dim>
   void
-  Statistics<dim>::add_row(const State<dim>        &state,
-                           const LiquidDomain<dim> &domain,
-                           const StepInfo          &info)
+  Statistics<dim>::add_row(const State<dim>             &state,
+                           const LiquidDomain<dim>      &domain,
+                           const StepInfo               &info,
+                           const std::vector<Load<dim>> &loads)
   {
     const Measures<dim> measures = measure(state, domain);
     const double        volume   = rounded(measures.volume);
@@ -209,6 +210,14 @@ namespace treacle
     add.count("Viscosity iterations", info.viscosity_iterations);
     add.count("Pressure iterations", info.pressure_iterations);
     add.number("Wall time (s)", info.wall_time);
+    for (unsigned int k = 0; k <= domain.scene.n_solids(); ++k)
+      {
+        const std::string body =
+          k < domain.scene.n_solids() ? "Solid " + std::to_string(k + 1) : "Walls";
+        const Load<dim> load = loads.empty() ? Load<dim>() : loads[k];
+        add.vector(body + " force", "N", load.force, dim);
+        add.vector(body + " torque", "N m", load.torque, Load<dim>::n_rotations);
+      }
     const auto values = probes.read(state, domain);
     for (unsigned int k = 0; k < values.size(); ++k)
       {

@@ -81,11 +81,14 @@ namespace treacle
 
   template <int dim>
   unsigned int
-  Viscosity<dim>::advance(State<dim> &state, const FaceFit<dim> &fit, const double dt) const
+  Viscosity<dim>::advance(State<dim>         &state,
+                          const FaceFit<dim> &fit,
+                          const double        dt,
+                          Reactions<dim>     *reactions) const
   {
-    return prm.mapping == "face coupled"        ? advance_face_coupled(state, fit, dt) :
-           prm.mapping.rfind("node", 0) == 0 ? advance_nodes(state, fit, dt) :
-                                                advance_face_fitted(state, fit, dt);
+    return prm.mapping == "face coupled"     ? advance_face_coupled(state, fit, dt, reactions) :
+           prm.mapping.rfind("node", 0) == 0 ? advance_nodes(state, fit, dt, reactions) :
+                                               advance_face_fitted(state, fit, dt, reactions);
   }
 
   template <int dim>
@@ -133,29 +136,46 @@ namespace treacle
   unsigned int
   Viscosity<dim>::advance_face_fitted(State<dim>         &state,
                                       const FaceFit<dim> &fit,
-                                      const double        dt) const
+                                      const double        dt,
+                                      Reactions<dim>     *reactions) const
   {
     const LiquidDomain<dim> &domain = fit.domain;
     const bool               flip   = prm.mapping == "face fitted FLIP";
     if (flip)
       fit.solve(state.u, state.v);
+    const Vector          old_u = state.u;
+    const NodeVector<dim> old_v = state.v;
+    old_u.update_ghost_values();
+    old_v.update_ghost_values();
 
     auto stiffness = this->stiffness(domain, dt);
     stiffness.strain.resize(domain.viscosity.size());
     for (LocalIndex c = 0; c < stiffness.strain.size(); ++c)
       stiffness.strain[c] += fit.regularization()[c];
-    return solve(state,
-                 fit.system,
-                 fit.system.assemble(NodeSystem<dim>::Mass::faces, stiffness),
-                 fit.system.stress_free_motions(stiffness),
-                 fit.system.face_momentum(state.u),
-                 flip,
-                 prm.solver);
+    const unsigned int iterations =
+      solve(state,
+            fit.system,
+            fit.system.assemble(NodeSystem<dim>::Mass::faces, stiffness),
+            fit.system.stress_free_motions(stiffness),
+            fit.system.face_momentum(state.u),
+            flip,
+            prm.solver);
+    if (reactions != nullptr)
+      {
+        reactions->add_stress(stiffness, state.v);
+        if (flip)
+          reactions->add_stress({fit.regularization(), {}}, old_v, -1);
+        reactions->add_inertia(fit.system, old_u, state.u);
+      }
+    return iterations;
   }
 
   template <int dim>
   unsigned int
-  Viscosity<dim>::advance_nodes(State<dim> &state, const FaceFit<dim> &fit, const double dt) const
+  Viscosity<dim>::advance_nodes(State<dim>         &state,
+                                const FaceFit<dim> &fit,
+                                const double        dt,
+                                Reactions<dim>     *reactions) const
   {
     const LiquidDomain<dim> &domain = fit.domain;
     LeastSquares<dim>(domain).apply(state.u, state.v);
@@ -163,21 +183,26 @@ namespace treacle
     for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
       momentum[node] = domain.node_mass[node] * state.v.value(node);
 
-    const auto stiffness = this->stiffness(domain, dt);
-    return solve(state,
-                 fit.system,
-                 fit.system.assemble(NodeSystem<dim>::Mass::nodes, stiffness),
-                 fit.system.stress_free_motions(stiffness),
-                 momentum,
-                 prm.mapping == "node FLIP",
-                 prm.solver);
+    const auto         stiffness = this->stiffness(domain, dt);
+    const unsigned int iterations =
+      solve(state,
+            fit.system,
+            fit.system.assemble(NodeSystem<dim>::Mass::nodes, stiffness),
+            fit.system.stress_free_motions(stiffness),
+            momentum,
+            prm.mapping == "node FLIP",
+            prm.solver);
+    if (reactions != nullptr)
+      reactions->add_stress(stiffness, state.v);
+    return iterations;
   }
 
   template <int dim>
   unsigned int
   Viscosity<dim>::advance_face_coupled(State<dim>         &state,
                                        const FaceFit<dim> &fit,
-                                       const double        dt) const
+                                       const double        dt,
+                                       Reactions<dim>     *reactions) const
   {
     const LiquidDomain<dim> &domain    = fit.domain;
     const auto               stiffness = this->stiffness(domain, dt);
@@ -214,6 +239,8 @@ namespace treacle
         state.u.local_element(f) = u.local_element(f);
     state.u.update_ghost_values();
     face_coupled.H.apply(state.u, state.v);
+    if (reactions != nullptr)
+      reactions->add_stress(stiffness, state.v);
     return iterations;
   }
 

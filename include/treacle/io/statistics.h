@@ -5,6 +5,7 @@
 #define treacle_io_statistics_h
 
 #include <treacle/io/probes.h>
+#include <treacle/steps/reactions.h>
 
 namespace treacle
 {
@@ -45,11 +46,13 @@ namespace treacle
     void
     resume(const unsigned int step);
 
-    /// Collective; throws a UserError on all ranks if the file cannot be written.
+    /// @p loads of the solids and the walls; without them zeros are written. Collective;
+    /// throws a UserError on all ranks if the file cannot be written.
     void
-    add_row(const State<dim>        &state,
-            const LiquidDomain<dim> &domain,
-            const StepInfo          &info);
+    add_row(const State<dim>             &state,
+            const LiquidDomain<dim>      &domain,
+            const StepInfo               &info,
+            const std::vector<Load<dim>> &loads = {});
 
     /// Of the last row, on all ranks, by the name of its column.
     double
