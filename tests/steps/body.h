@@ -24,6 +24,15 @@ namespace tests
       , fit(prm.face_fit, domain)
     {}
 
+    /// A mesh full of liquid.
+    Body(const std::shared_ptr<const Mesh<dim>> &mesh, const std::string &text)
+      : prm(parse<dim>(text, 0))
+      , scene(prm.scene)
+      , state(full(mesh))
+      , domain(state, scene, prm.projection.minimum_theta)
+      , fit(prm.face_fit, domain)
+    {}
+
     /// Set the face velocity to that of a field.
     void
     set_velocity(const std::function<Tensor<1, dim>(const Point<dim> &)> &velocity)
@@ -42,6 +51,15 @@ namespace tests
     FaceFit<dim>                        fit;
 
   private:
+    static State<dim>
+    full(const std::shared_ptr<const Mesh<dim>> &mesh)
+    {
+      State<dim> result(mesh);
+      result.phi = -1;
+      result.phi.update_ghost_values();
+      return result;
+    }
+
     State<dim>
     make_state(const MPI_Comm &comm)
     {
