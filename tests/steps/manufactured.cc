@@ -3,8 +3,9 @@
 
 // One viscous step in a box without slip, full of liquid, on a graded mesh, viscosity
 // exp(1 + x) cos(y) (case A7), from the velocity that has the exact solution after it: the
-// solve at the nodes alone, and with each mapping. Error relative to the solution, in the norm
-// of the masses and at the worst node or face. Arguments: dimension, levels.
+// solve at the nodes alone, and with each mapping. Error at the nodes, and at the faces,
+// relative to the solution, in the norm of the masses and at the worst one. Arguments:
+// dimension, levels, settings.
 
 #include "../tests.h"
 #include "body.h"
@@ -83,6 +84,7 @@ namespace
     for (unsigned int d = 0; d < dim; ++d)
       prm.upper_corner[d] = 1;
     prm.surface_level = level;
+    prm.interior_level = prm.air_level = 0;
     const auto refine = [&](const std::vector<Leaf<dim>> &leaves) {
       std::vector<bool> result;
       for (const Leaf<dim> &leaf : leaves)
@@ -129,12 +131,14 @@ namespace
     }
 
     /// Collective.
-    void
-    print(const MPI_Comm &comm) const
+    std::string
+    text(const MPI_Comm &comm) const
     {
-      out() << std::setprecision(3)
-            << std::sqrt(Utilities::MPI::sum(sum, comm) / Utilities::MPI::sum(size, comm)) << ", "
-            << Utilities::MPI::max(worst, comm) / Utilities::MPI::max(largest, comm) << std::endl;
+      std::ostringstream text;
+      text << std::setprecision(3)
+           << std::sqrt(Utilities::MPI::sum(sum, comm) / Utilities::MPI::sum(size, comm)) << ", "
+           << Utilities::MPI::max(worst, comm) / Utilities::MPI::max(largest, comm);
+      return text.str();
     }
   };
 
@@ -152,10 +156,23 @@ namespace
            "subsection Linear solvers\nsubsection Viscosity\nset Maximum iterations = 100000\nend\nend\n";
   }
 
-  /// What a step of the nodes alone leaves.
   template <int dim>
   Error
-  error_of_nodes(Body<dim> &body)
+  error_at_nodes(const Body<dim> &body)
+  {
+    const Mesh<dim> &mesh = *body.state.mesh;
+    Error            error;
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      error.add(body.domain.node_mass[node],
+                body.state.v.value(node),
+                velocity(mesh.node_position[node]));
+    return error;
+  }
+
+  /// A step of the nodes alone.
+  template <int dim>
+  void
+  solve_at_nodes(Body<dim> &body)
   {
     const LiquidDomain<dim>    &domain = body.domain;
     const Mesh<dim>            &mesh   = domain.mesh;
@@ -175,28 +192,24 @@ namespace
     treacle::Vector    x = system.unknowns(body.state.v);
     solver.solve(x, system.right_hand_side(momentum, assembled));
     system.to_nodes(x, body.state.v);
-    Error error;
-    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      error.add(domain.node_mass[node],
-                body.state.v.value(node),
-                velocity(mesh.node_position[node]));
-    return error;
   }
 
+  /// Of faces, and of the node velocity that the step leaves.
   template <int dim>
-  Error
-  error_of_faces(Body<dim> &body)
+  std::pair<Error, Error>
+  errors_of_step(Body<dim> &body)
   {
-    const Mesh<dim> &mesh = *body.state.mesh;
+    const LiquidDomain<dim> &domain = body.domain;
+    const Mesh<dim>         &mesh   = domain.mesh;
     body.set_velocity([](const Point<dim> &x) { return velocity(x) - dt * force(x); });
     Viscosity<dim>(body.prm.viscosity).advance(body.state, body.fit, dt);
-    Error error;
+    Error of_faces;
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
-      if (body.domain.is_liquid_face(f))
-        error.add(body.domain.face_mass[f],
-                  body.state.u.local_element(f),
-                  velocity(mesh.face_centre[f]) * mesh.face_normal[f]);
-    return error;
+      if (domain.is_liquid_face(f))
+        of_faces.add(domain.face_mass[f],
+                     body.state.u.local_element(f),
+                     velocity(mesh.face_centre[f]) * mesh.face_normal[f]);
+    return {of_faces, error_at_nodes(body)};
   }
 
   template <int dim>
@@ -210,8 +223,15 @@ namespace
           const bool nodes = mapping == "nodes alone";
           Body<dim>  body(graded<dim>(comm, level),
                          parameters<dim>(nodes ? "face fitted FLIP" : mapping));
-          out() << dim << "D, level " << level << ", " << mapping << ": ";
-          (nodes ? error_of_nodes(body) : error_of_faces(body)).print(comm);
+          out() << dim << "D, level " << level << ", " << mapping << std::setprecision(3) << ": ";
+          if (nodes)
+            {
+              solve_at_nodes(body);
+              out() << error_at_nodes(body).text(comm) << std::endl;
+              continue;
+            }
+          const auto [of_faces, of_nodes] = errors_of_step(body);
+          out() << of_nodes.text(comm) << ", " << of_faces.text(comm) << std::endl;
         }
   }
 } // namespace
@@ -220,12 +240,11 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  std::vector<unsigned int>        levels;
-  for (int i = 2; i < argc; ++i)
-    levels.push_back(std::stoi(argv[i]));
-  if (argc > 2 && argv[1][0] == '2')
+  const auto arguments = tests::arguments(argc, argv);
+  const auto levels    = tests::levels(arguments, 1);
+  if (!levels.empty() && arguments[0] == "2")
     check<2>(MPI_COMM_WORLD, levels);
-  else if (argc > 2)
+  else if (!levels.empty())
     check<3>(MPI_COMM_WORLD, levels);
   else
     on_1_2_3_ranks([](const MPI_Comm &comm) {
