@@ -255,6 +255,28 @@ namespace treacle
   }
 
   template <int dim>
+  unsigned int
+  Scene<dim>::n_solids() const
+  {
+    return solids.size();
+  }
+
+  template <int dim>
+  unsigned int
+  Scene<dim>::nearest_solid(const Point<dim> &x, const double t) const
+  {
+    const auto distance = [&](const Solid<dim> &solid) { return solid.signed_distance(x, t); };
+    return nearest(solids, distance).first - solids.data();
+  }
+
+  template <int dim>
+  Point<dim>
+  Scene<dim>::solid_centre(const unsigned int k, const double t) const
+  {
+    return solids[k].centre(t);
+  }
+
+  template <int dim>
   void
   Scene<dim>::check_solids(const double t) const
   {

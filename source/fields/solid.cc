@@ -71,6 +71,14 @@ namespace treacle
   }
 
   template <int dim>
+  Point<dim>
+  Solid<dim>::centre(const double t) const
+  {
+    const Pose<dim> &pose = motion.at(t);
+    return pose.start + pose.shift;
+  }
+
+  template <int dim>
   void
   Solid<dim>::check(const double t) const
   {

@@ -172,7 +172,7 @@ namespace treacle
   void
   Statistics<dim>::add_row(const State<dim>        &state,
                            const LiquidDomain<dim> &domain,
-                           const StepInfo<dim>          &info)
+                           const StepInfo<dim>     &info)
   {
     const Measures<dim> measures = measure(state, domain);
     const double        volume   = rounded(measures.volume);
@@ -210,6 +210,15 @@ namespace treacle
     add.count("Fallbacks", info.dynamics.fallbacks);
     add.count("Pressure iterations", info.dynamics.pressure_iterations);
     add.number("Wall time (s)", info.wall_time);
+    for (unsigned int k = 0; k <= domain.scene.n_solids(); ++k)
+      {
+        const std::string body =
+          k < domain.scene.n_solids() ? "Solid " + std::to_string(k + 1) : "Walls";
+        const auto     &loads = info.dynamics.loads;
+        const Load<dim> load  = loads.empty() ? Load<dim>() : loads[k];
+        add.vector(body + " force", "N", load.force, dim);
+        add.vector(body + " torque", "N m", load.torque, Load<dim>::n_rotations);
+      }
     const auto values = probes.read(state, domain);
     for (unsigned int k = 0; k < values.size(); ++k)
       {

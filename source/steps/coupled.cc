@@ -40,6 +40,7 @@ namespace treacle
     , domain(system.domain)
     , projection(projection)
     , dt(dt)
+    , stiffness(stiffness)
     , hybrid(system, stiffness, dt, Hybrid<dim>::Faces::beside_pressure)
     , nodes_solver(viscosity_solver,
                    "Viscosity",
@@ -144,7 +145,7 @@ namespace treacle
 
   template <int dim>
   void
-  Coupled<dim>::set_faces(State<dim> &state, const Pair &x) const
+  Coupled<dim>::set_faces(State<dim> &state, const Pair &x, Reactions<dim> &reactions) const
   {
     const Mesh<dim> &mesh  = domain.mesh;
     const auto      &cells = projection.cells();
@@ -153,13 +154,22 @@ namespace treacle
     q.update_ghost_values();
     const Vector q_beyond = projection.extended(q);
     system.to_nodes(x.block(0), state.v);
+    // what viscosity alone would change: on what is prescribed pressure acts by itself
+    Vector before = mesh.zeros(mesh.faces), after = mesh.zeros(mesh.faces);
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       if (domain.is_liquid_face(f))
         {
           const double s = hybrid.share[f];
           double      &u = state.u.local_element(f);
-          u = (1 - s) * (u + projection.impulse(f, q, q_beyond)) + s * face_velocity(mesh, state.v, f);
+          const double pushed = projection.impulse(f, q, q_beyond), carried = face_velocity(mesh, state.v, f);
+          before.local_element(f) = u + pushed;
+          u                       = (1 - s) * (u + pushed) + s * carried;
+          after.local_element(f)  = u;
         }
+    before.update_ghost_values();
+    after.update_ghost_values();
+    reactions.add_stress(stiffness, state.v);
+    reactions.add_inertia(system, before, after);
     state.u.update_ghost_values();
     for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
       state.pressure.local_element(c) = q.local_element(c) / dt;
@@ -177,7 +187,7 @@ namespace treacle
 
   template <int dim>
   std::optional<unsigned int>
-  Coupled<dim>::advance(State<dim> &state) const
+  Coupled<dim>::advance(State<dim> &state, Reactions<dim> &reactions) const
   {
     projection.set_walls(state.u);
     const Pair b = right_hand_side(state);
@@ -209,7 +219,7 @@ namespace treacle
         return {};
       }
     projection.take_off_mean(x.block(1));
-    set_faces(state, x);
+    set_faces(state, x, reactions);
     return norm == 0 ? 0 : control.last_step();
   }
 

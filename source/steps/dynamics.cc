@@ -48,8 +48,9 @@ namespace treacle
     const Dynamics                        &dynamics;
     const LiquidDomain<dim>               &domain;
     Timing                                &timing;
-    std::unique_ptr<const Projection<dim>> projection = nullptr;
-    std::unique_ptr<const FaceFit<dim>>    fit        = nullptr;
+    std::unique_ptr<const Projection<dim>> projection;
+    std::unique_ptr<const FaceFit<dim>>    fit;
+    Reactions<dim>                         reactions;
     Info                                   info{};
 
     void
@@ -71,7 +72,7 @@ namespace treacle
       if (dynamics.switches.viscosity)
         {
           const auto section = timing.section("viscosity");
-          info.viscosity_iterations += dynamics.viscosity.advance(state, *fit, dt);
+          info.viscosity_iterations += dynamics.viscosity.advance(state, *fit, dt, &reactions);
         }
       project(state, dt, twice ? Pass::correction : Pass::first);
     }
@@ -87,7 +88,7 @@ namespace treacle
                                  dynamics.viscosity.stiffness(domain, dt),
                                  *projection,
                                  dt);
-      const auto         iterations = coupled.advance(state);
+      const auto         iterations = coupled.advance(state, reactions);
       if (iterations)
         info.viscosity_iterations += *iterations;
       return iterations.has_value();
@@ -107,6 +108,8 @@ namespace treacle
           ++info.fallbacks;
           split(state, dt, true);
         }
+      if (projection)
+        reactions.add_pressure(state.pressure, dt);
     }
   };
 
@@ -118,7 +121,7 @@ namespace treacle
                          const double             reach,
                          Timing                  &timing) const
   {
-    Stage stage{*this, domain, timing};
+    Stage stage{*this, domain, timing, nullptr, nullptr, Reactions<dim>(domain, state.time)};
     if (switches.pressure)
       {
         const auto section = timing.section("pressure");
@@ -137,6 +140,7 @@ namespace treacle
         const double gamma = 1 - std::sqrt(0.5), start = (1 - gamma) / gamma;
         const Vector u = state.u;
         stage.advance(state, gamma * dt);
+        stage.reactions.scale(start);
         for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
           if (domain.is_liquid_face(f))
             state.u.local_element(f) =
@@ -144,6 +148,7 @@ namespace treacle
         state.u.update_ghost_values();
         stage.advance(state, gamma * dt);
       }
+    stage.info.loads              = stage.reactions.loads(dt);
     stage.info.maximum_divergence = Projection<dim>::maximum_divergence(state, domain);
     const auto section            = timing.section("reconstruction");
     reconstruction.advance(state, *stage.fit, reach);

@@ -82,12 +82,15 @@ namespace treacle
 
   template <int dim>
   unsigned int
-  Viscosity<dim>::advance(State<dim> &state, const FaceFit<dim> &fit, const double dt) const
+  Viscosity<dim>::advance(State<dim>         &state,
+                          const FaceFit<dim> &fit,
+                          const double        dt,
+                          Reactions<dim>     *reactions) const
   {
-    return prm.mapping == "hybrid"              ? advance_hybrid(state, fit, dt) :
-           prm.mapping == "face coupled"        ? advance_face_coupled(state, fit, dt) :
-           prm.mapping.rfind("node", 0) == 0 ? advance_nodes(state, fit, dt) :
-                                                advance_face_fitted(state, fit, dt);
+    return prm.mapping == "hybrid"           ? advance_hybrid(state, fit, dt, reactions) :
+           prm.mapping == "face coupled"     ? advance_face_coupled(state, fit, dt, reactions) :
+           prm.mapping.rfind("node", 0) == 0 ? advance_nodes(state, fit, dt, reactions) :
+                                               advance_face_fitted(state, fit, dt, reactions);
   }
 
   template <int dim>
@@ -109,29 +112,46 @@ namespace treacle
   unsigned int
   Viscosity<dim>::advance_face_fitted(State<dim>         &state,
                                       const FaceFit<dim> &fit,
-                                      const double        dt) const
+                                      const double        dt,
+                                      Reactions<dim>     *reactions) const
   {
     const LiquidDomain<dim> &domain = fit.domain;
     const bool               flip   = prm.mapping == "face fitted FLIP";
     if (flip)
       fit.solve(state.u, state.v);
+    const Vector          old_u = state.u;
+    const NodeVector<dim> old_v = state.v;
+    old_u.update_ghost_values();
+    old_v.update_ghost_values();
 
     auto stiffness = this->stiffness(domain, dt);
     stiffness.strain.resize(domain.viscosity.size());
     for (LocalIndex c = 0; c < stiffness.strain.size(); ++c)
       stiffness.strain[c] += fit.regularization()[c];
-    return solve(state,
-                 fit.system,
-                 fit.system.assemble(NodeSystem<dim>::Mass::faces, stiffness),
-                 fit.system.stress_free_motions(stiffness),
-                 fit.system.face_momentum(state.u),
-                 flip,
-                 prm.solver);
+    const unsigned int iterations =
+      solve(state,
+            fit.system,
+            fit.system.assemble(NodeSystem<dim>::Mass::faces, stiffness),
+            fit.system.stress_free_motions(stiffness),
+            fit.system.face_momentum(state.u),
+            flip,
+            prm.solver);
+    if (reactions != nullptr)
+      {
+        reactions->add_stress(stiffness, state.v);
+        if (flip)
+          reactions->add_stress({fit.regularization(), {}}, old_v, -1);
+        reactions->add_inertia(fit.system, old_u, state.u);
+      }
+    return iterations;
   }
 
   template <int dim>
   unsigned int
-  Viscosity<dim>::advance_hybrid(State<dim> &state, const FaceFit<dim> &fit, const double dt) const
+  Viscosity<dim>::advance_hybrid(State<dim>         &state,
+                                 const FaceFit<dim> &fit,
+                                 const double        dt,
+                                 Reactions<dim>     *reactions) const
   {
     const auto         stiffness = this->stiffness(fit.domain, dt);
     const Hybrid<dim>  hybrid(fit.system, stiffness, dt, Hybrid<dim>::Faces::all);
@@ -142,17 +162,27 @@ namespace treacle
     Vector             x          = fit.system.unknowns(state.v);
     const unsigned int iterations = solver.solve(x, hybrid.right_hand_side(state.u, state.v));
     fit.system.to_nodes(x, state.v);
+    const Vector old_u = state.u;
+    old_u.update_ghost_values();
     for (LocalIndex f = 0; f < fit.domain.mesh.n_owned_faces(); ++f)
       if (fit.domain.is_liquid_face(f))
         state.u.local_element(f) +=
           hybrid.share[f] * (face_velocity(fit.domain.mesh, state.v, f) - state.u.local_element(f));
     state.u.update_ghost_values();
+    if (reactions != nullptr)
+      {
+        reactions->add_stress(stiffness, state.v);
+        reactions->add_inertia(fit.system, old_u, state.u);
+      }
     return iterations;
   }
 
   template <int dim>
   unsigned int
-  Viscosity<dim>::advance_nodes(State<dim> &state, const FaceFit<dim> &fit, const double dt) const
+  Viscosity<dim>::advance_nodes(State<dim>         &state,
+                                const FaceFit<dim> &fit,
+                                const double        dt,
+                                Reactions<dim>     *reactions) const
   {
     const LiquidDomain<dim> &domain = fit.domain;
     LeastSquares<dim>(domain).apply(state.u, state.v);
@@ -160,21 +190,26 @@ namespace treacle
     for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
       momentum[node] = domain.node_mass[node] * state.v.value(node);
 
-    const auto stiffness = this->stiffness(domain, dt);
-    return solve(state,
-                 fit.system,
-                 fit.system.assemble(NodeSystem<dim>::Mass::nodes, stiffness),
-                 fit.system.stress_free_motions(stiffness),
-                 momentum,
-                 prm.mapping == "node FLIP",
-                 prm.solver);
+    const auto         stiffness = this->stiffness(domain, dt);
+    const unsigned int iterations =
+      solve(state,
+            fit.system,
+            fit.system.assemble(NodeSystem<dim>::Mass::nodes, stiffness),
+            fit.system.stress_free_motions(stiffness),
+            momentum,
+            prm.mapping == "node FLIP",
+            prm.solver);
+    if (reactions != nullptr)
+      reactions->add_stress(stiffness, state.v);
+    return iterations;
   }
 
   template <int dim>
   unsigned int
   Viscosity<dim>::advance_face_coupled(State<dim>         &state,
                                        const FaceFit<dim> &fit,
-                                       const double        dt) const
+                                       const double        dt,
+                                       Reactions<dim>     *reactions) const
   {
     const LiquidDomain<dim> &domain    = fit.domain;
     const auto               stiffness = this->stiffness(domain, dt);
@@ -211,6 +246,8 @@ namespace treacle
         state.u.local_element(f) = u.local_element(f);
     state.u.update_ghost_values();
     face_coupled.H.apply(state.u, state.v);
+    if (reactions != nullptr)
+      reactions->add_stress(stiffness, state.v);
     return iterations;
   }
 

@@ -12,16 +12,67 @@
 
 namespace tests
 {
+  /// Text of the settings among the arguments, for every Body.
+  inline std::string &
+  settings()
+  {
+    static std::string text;
+    return text;
+  }
+
+  /// The arguments of a program; those like "Section/Name=value" become settings.
+  inline std::vector<std::string>
+  arguments(const int argc, char **argv)
+  {
+    std::vector<std::string> result;
+    for (const std::string argument : std::vector<std::string>(argv + 1, argv + argc))
+      if (const auto equals = argument.find('='); equals == std::string::npos)
+        result.push_back(argument);
+      else
+        {
+          std::string line = "set " + argument.substr(0, equals) + " = " + argument.substr(equals + 1);
+          std::string end  = "\n";
+          for (auto slash = line.find('/'); slash < line.find('='); slash = line.find('/'))
+            {
+              line = "subsection " + line.substr(4, slash - 4) + "\nset " + line.substr(slash + 1);
+              end += "end\n";
+              settings() += line.substr(0, line.find('\n') + 1);
+              line = line.substr(line.find('\n') + 1);
+            }
+          settings() += line + end;
+        }
+    return result;
+  }
+
+  /// Levels among arguments, after the dimension.
+  inline std::vector<unsigned int>
+  levels(const std::vector<std::string> &arguments, const unsigned int first)
+  {
+    std::vector<unsigned int> result;
+    for (unsigned int i = first; i < arguments.size(); ++i)
+      result.push_back(std::stoi(arguments[i]));
+    return result;
+  }
+
   /// A body of liquid as a parameter text describes it, for single steps.
   template <int dim>
   struct Body
   {
     Body(const MPI_Comm &comm, const std::string &text, const unsigned int n_solids = 0)
-      : prm(parse<dim>(text, n_solids))
+      : prm(parse<dim>(text + settings(), n_solids))
       , scene(prm.scene)
       , state(make_state(comm))
       , domain(state, scene, prm.dynamics.projection.minimum_theta)
       , fit(prm.dynamics.face_fit, domain)
+    {}
+
+    /// A mesh full of liquid.
+    Body(const std::shared_ptr<const Mesh<dim>> &mesh, const std::string &text)
+      : prm(parse<dim>(text + settings(), 0))
+      , scene(prm.scene)
+      , state(full(mesh))
+      , domain(state, scene, prm.projection.minimum_theta)
+      , fit(prm.face_fit, domain)
     {}
 
     /// Set the face velocity to that of a field.
@@ -42,6 +93,15 @@ namespace tests
     FaceFit<dim>                        fit;
 
   private:
+    static State<dim>
+    full(const std::shared_ptr<const Mesh<dim>> &mesh)
+    {
+      State<dim> result(mesh);
+      result.phi = -1;
+      result.phi.update_ghost_values();
+      return result;
+    }
+
     State<dim>
     make_state(const MPI_Comm &comm)
     {
@@ -61,7 +121,7 @@ namespace tests
 
   struct Loss
   {
-    double angular_momentum, kinetic_energy; ///< relative
+    double angular_momentum, kinetic_energy, linear_momentum; ///< relative
   };
 
   /// Parameters of a free body that rotates and moves as a rigid one (case A1).
@@ -87,14 +147,20 @@ namespace tests
     const Measures<dim> before = measure(body.state, body.domain);
     Viscosity<dim>(body.prm.dynamics.viscosity).advance(body.state, body.fit, 0.01);
     const Measures<dim> after  = measure(body.state, body.domain);
-    double              change = 0, size = 0;
+    double              change = 0, size = 0, shift = 0, linear = 0;
     for (unsigned int k = 0; k < Motion<dim>::n_rotations; ++k)
       {
         change += std::pow(after.of_faces.angular[k] - before.of_faces.angular[k], 2);
         size += std::pow(before.of_faces.angular[k], 2);
       }
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        shift += std::pow(after.of_faces.linear[d] - before.of_faces.linear[d], 2);
+        linear += std::pow(before.of_faces.linear[d], 2);
+      }
     return {std::sqrt(change / size),
-            std::abs(after.of_faces.kinetic_energy / before.of_faces.kinetic_energy - 1)};
+            std::abs(after.of_faces.kinetic_energy / before.of_faces.kinetic_energy - 1),
+            std::sqrt(shift / linear)};
   }
 
   /// For a person, who asks for a fine mesh.

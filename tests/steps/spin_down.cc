@@ -4,7 +4,7 @@
 // A free disc of radius R that turns, u_theta = J1(l r/R), by viscous steps alone: the
 // decay rate over nu/R^2. Full stress: l = 5.1356223, rate 26.3746164 (case A4). Laplacian:
 // l = 1.8411838, rate 3.38995772, the mode in which a rigid rotation is wrongly damped
-// (case A1); with the full stress rigid rotation must keep its energy. Arguments: levels.
+// (case A1); with the full stress rigid rotation must keep its energy. Arguments: levels, settings.
 
 #include "../tests.h"
 #include "body.h"
@@ -57,32 +57,32 @@ namespace
       viscosity.advance(body.state, body.fit, dt);
     return (std::pow(part(start) / part(body.state.u), 0.1) - 1) / dt * radius * radius;
   }
+
+  void
+  check(const MPI_Comm &comm, const std::vector<unsigned int> &levels)
+  {
+    for (const char *mapping :
+         {"face coupled", "face fitted FLIP", "face fitted PIC", "node FLIP", "node PIC"})
+      for (const unsigned int level : levels)
+        {
+          const double kept = decay_rate(comm, mapping, "full", 0, level);
+          out() << "level " << level << ", " << mapping << std::setprecision(4) << ": laplacian "
+                << decay_rate(comm, mapping, "laplacian", 1.8411838, level) << " (3.38995772), full "
+                << decay_rate(comm, mapping, "full", 5.1356223, level)
+                << " (26.3746164), full and rigid "
+                << (std::abs(kept) < 1e-8 ? "below 1e-8" : std::abs(kept) < 0.2 ? "below 0.2" : "too large")
+                << std::endl;
+        }
+  }
 } // namespace
 
 int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  std::vector<unsigned int>        levels;
-  for (int i = 1; i < argc; ++i)
-    levels.push_back(std::stoi(argv[i]));
+  const auto levels = tests::levels(arguments(argc, argv), 0);
   if (levels.empty())
-    levels = {4, 5};
-  on_1_2_3_ranks([&](const MPI_Comm &comm) {
-    for (const char *mapping :
-         {"face coupled", "face fitted FLIP", "face fitted PIC", "node FLIP", "node PIC"})
-      {
-        out() << mapping << std::setprecision(4) << std::endl;
-        for (const unsigned int level : levels)
-          {
-            const double kept = decay_rate(comm, mapping, "full", 0, level);
-            out() << "  level " << level << ", laplacian "
-                  << decay_rate(comm, mapping, "laplacian", 1.8411838, level) << " (3.38995772), full "
-                  << decay_rate(comm, mapping, "full", 5.1356223, level)
-                  << " (26.3746164), full and rigid "
-                  << (std::abs(kept) < 1e-8 ? "below 1e-8" : std::abs(kept) < 0.2 ? "below 0.2" : "too large")
-                  << std::endl;
-          }
-      }
-  });
+    on_1_2_3_ranks([](const MPI_Comm &comm) { check(comm, {4, 5}); });
+  else
+    check(MPI_COMM_WORLD, levels);
 }

@@ -3,7 +3,7 @@
 
 // One viscous step on a free disc (case A2) and a free sphere (A3) of radius 1 from the
 // velocity that has the exact solution after it: error of the face velocity, relative to
-// the solution, in the norm of M_f and at the worst face. Arguments: dimension, levels.
+// the solution, in the norm of M_f and at the worst face. Arguments: dimension, levels, settings.
 
 #include "../tests.h"
 #include "body.h"
@@ -97,12 +97,11 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  std::vector<unsigned int>        levels;
-  for (int i = 2; i < argc; ++i)
-    levels.push_back(std::stoi(argv[i]));
-  if (argc > 2 && argv[1][0] == '2')
+  const auto arguments = tests::arguments(argc, argv);
+  const auto levels    = tests::levels(arguments, 1);
+  if (!levels.empty() && arguments[0] == "2")
     check_all<2>(MPI_COMM_WORLD, levels);
-  else if (argc > 2)
+  else if (!levels.empty())
     check_all<3>(MPI_COMM_WORLD, levels);
   else
     on_1_2_3_ranks([](const MPI_Comm &comm) {

@@ -79,6 +79,9 @@ namespace treacle
     bool
     has_solids() const;
 
+    unsigned int
+    n_solids() const;
+
     /// Signed distance to the union of the solids, positive outside
     /// them (where liquid may be); a large number if there is none.
     double
@@ -87,6 +90,14 @@ namespace treacle
     /// Of the nearest solid (m/s).
     Tensor<1, dim>
     solid_velocity(const Point<dim> &x, const double t) const;
+
+    /// The solid (from 0) of smallest distance; there is at least one.
+    unsigned int
+    nearest_solid(const Point<dim> &x, const double t) const;
+
+    /// Centre of rotation of solid k (m).
+    Point<dim>
+    solid_centre(const unsigned int k, const double t) const;
 
     /// Throws a UserError if a moving solid has left the box.
     void

@@ -37,6 +37,10 @@ namespace treacle
     Tensor<1, dim>
     velocity(const Point<dim> &x, const double t) const;
 
+    /// Of its rotation (m).
+    Point<dim>
+    centre(const double t) const;
+
     /// Throws a UserError if it moves, was in the box, and has left it at t.
     void
     check(const double t) const;

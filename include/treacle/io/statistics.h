@@ -46,7 +46,7 @@ namespace treacle
     void
     resume(const unsigned int step);
 
-    /// Collective; throws a UserError on all ranks if the file cannot be written.
+    /// Without loads zeros are written. Collective; throws a UserError on all ranks if the file cannot be written.
     void
     add_row(const State<dim>        &state,
             const LiquidDomain<dim> &domain,

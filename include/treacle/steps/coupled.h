@@ -6,6 +6,7 @@
 
 #include <treacle/steps/hybrid.h>
 #include <treacle/steps/projection.h>
+#include <treacle/steps/reactions.h>
 
 #include <deal.II/lac/la_parallel_block_vector.h>
 
@@ -47,7 +48,7 @@ namespace treacle
     /// the number of iterations. Where the solve stagnates: changes nothing and returns
     /// nothing.
     std::optional<unsigned int>
-    advance(State<dim> &state) const;
+    advance(State<dim> &state, Reactions<dim> &reactions) const;
 
   private:
     using Pair = LinearAlgebra::distributed::BlockVector<double>; ///< of v and q
@@ -67,13 +68,14 @@ namespace treacle
 
     /// u from u*, v and q.
     void
-    set_faces(State<dim> &state, const Pair &x) const;
+    set_faces(State<dim> &state, const Pair &x, Reactions<dim> &reactions) const;
 
     const Parameters         prm;
     const NodeSystem<dim>   &system;
     const LiquidDomain<dim> &domain;
     const Projection<dim>   &projection;
     const double             dt;
+    const typename NodeSystem<dim>::Stiffness stiffness;
     const Hybrid<dim>        hybrid;
     const LinearSolver       nodes_solver;
     std::vector<double>      cell_viscosity; ///< 2 mu dt / V of each row

@@ -46,6 +46,8 @@ namespace treacle
       unsigned int pressure_iterations  = 0;
       unsigned int fallbacks            = 0; ///< coupled solves that were split instead
       double       maximum_divergence   = 0; ///< 1/s
+
+      std::vector<Load<dim>> loads; ///< on solids and walls, mean over the step
     };
 
     /// state.u, v and pressure after a step of size dt that ends at state.time. The velocity

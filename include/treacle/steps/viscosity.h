@@ -5,6 +5,7 @@
 #define treacle_steps_viscosity_h
 
 #include <treacle/steps/face_fit.h>
+#include <treacle/steps/reactions.h>
 
 namespace treacle
 {
@@ -32,9 +33,13 @@ namespace treacle
     {}
 
     /// Changes state.u, and state.v of the active nodes. Returns the number of
-    /// iterations of the implicit solve. The fit belongs to the same surface.
+    /// iterations of the implicit solve. The fit belongs to the same surface. Adds what
+    /// holds the prescribed nodes to @p reactions, if there are such.
     unsigned int
-    advance(State<dim> &state, const FaceFit<dim> &fit, const double dt) const;
+    advance(State<dim>         &state,
+            const FaceFit<dim> &fit,
+            const double        dt,
+            Reactions<dim>     *reactions = nullptr) const;
 
     /// dt mu V of each cell, in the term that the stress model has.
     typename NodeSystem<dim>::Stiffness
@@ -42,16 +47,28 @@ namespace treacle
 
   private:
     unsigned int
-    advance_face_fitted(State<dim> &state, const FaceFit<dim> &fit, const double dt) const;
+    advance_face_fitted(State<dim>         &state,
+                        const FaceFit<dim> &fit,
+                        const double        dt,
+                        Reactions<dim>     *reactions) const;
 
     unsigned int
-    advance_hybrid(State<dim> &state, const FaceFit<dim> &fit, const double dt) const;
+    advance_hybrid(State<dim>         &state,
+                   const FaceFit<dim> &fit,
+                   const double        dt,
+                   Reactions<dim>     *reactions) const;
 
     unsigned int
-    advance_nodes(State<dim> &state, const FaceFit<dim> &fit, const double dt) const;
+    advance_nodes(State<dim>         &state,
+                  const FaceFit<dim> &fit,
+                  const double        dt,
+                  Reactions<dim>     *reactions) const;
 
     unsigned int
-    advance_face_coupled(State<dim> &state, const FaceFit<dim> &fit, const double dt) const;
+    advance_face_coupled(State<dim>         &state,
+                         const FaceFit<dim> &fit,
+                         const double        dt,
+                         Reactions<dim>     *reactions) const;
 
     const Parameters prm;
   };
