@@ -15,9 +15,6 @@ SHORT = {"Domain/Upper corner": "0.5, 1", "Mesh/Root cells": "1", "Material/Visc
          "Liquid 1/Expression": "y - 0.5 - 0.005 * cos(2 * pi * x)", "End time": "2",
          "Frame interval": "0.1"}
 THIN = {"Material/Viscosity": "0.005", "End time": "8"}
-PLANE = {"Dimension": "2", "Gravity/Acceleration": "0; 0", "Liquid 1/Centre": "0.45, 0.5",
-         "Liquid 1/Velocity": "0.1 - 2 * pi * (y - 0.5); 2 * pi * (x - 0.45)"}
-FALLING = {"Dimension": "2", "Liquid 1/Centre": "0.5, 0.7", "Gravity/Acceleration": "0; -9.81"}
 
 
 def wave_case(start, end, rate, frequency):
@@ -64,9 +61,9 @@ HELD = [(1, 1.0887, 0.9432), (3, 1.2761, 0.8423), (5, 1.4354, 0.7730), (10, 1.73
 
 # file, first level, time step there, exact values, settings
 FREE_SURFACE_CASES = {
-    "C2 fall": ("free_fall", 4, 0.02, {"fall": (fall, -9.81 * 0.1 ** 2 / 2)}, FALLING),
-    "C2 rotation": ("rigid_rotation", 4, 0.02, {"angular momentum": (angular_momentum, 1),
-                                                "kinetic energy": (kinetic_energy, 1)}, PLANE),
+    "C2 fall": ("free_fall_2d", 4, 0.02, {"fall": (fall, -9.81 * 0.1 ** 2 / 2)}, {}),
+    "C2 rotation": ("rigid_rotation_2d", 4, 0.02, {"angular momentum": (angular_momentum, 1),
+                                                   "kinetic energy": (kinetic_energy, 1)}, {}),
     "C3 k pi, h 1, nu 1": ("relaxation", 2, 0.1, {"rate": (surface_rate(pi, 1), 0.145546628)}, {}),
     "C3 k pi, h 0.5, nu 1": ("relaxation", 2, 0.1, {"rate": (surface_rate(pi, 1), 0.076507535)},
                              SHALLOW),
