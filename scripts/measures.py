@@ -3,10 +3,11 @@
 """What the exact cases measure: numbers from the statistics and the surfaces of a run."""
 
 import math
+from pathlib import Path
 
 import numpy
 
-from run_output import Run
+from run_output import Run, read_parameters
 from statistics import read_statistics
 
 TIME = "Time (s)"
@@ -18,6 +19,7 @@ class Results:
     def __init__(self, directory):
         self.directory = directory
         self.table = read_statistics(directory)
+        self.parameters = read_parameters(Path(directory) / "parameters.prm")
         self._run = None
 
     def __getitem__(self, column):
@@ -42,7 +44,10 @@ class Results:
 
     def energy_gain(self):
         """The largest rise of the total energy above what it was before, over the
-        largest kinetic energy plus the range of the potential one."""
+        largest kinetic energy plus the range of the potential one; 0 where the surface
+        is kept, for then gravity goes on working."""
+        if self.parameters.get("Steps/Surface") == "false":
+            return 0.
         energy, potential = self.energy(), self["Potential energy (J)"]
         rise = numpy.max(energy - numpy.minimum.accumulate(energy))
         return rise / (numpy.max(self["Kinetic energy (J)"]) + numpy.ptp(potential))
