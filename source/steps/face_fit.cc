@@ -6,13 +6,16 @@
 namespace treacle
 {
   template <int dim>
-  FaceFit<dim>::FaceFit(const Parameters &parameters, const LiquidDomain<dim> &domain)
+  FaceFit<dim>::FaceFit(const Parameters        &parameters,
+                        const LiquidDomain<dim> &domain,
+                        const double             strain_weight)
     : system(domain)
     , domain(domain)
+    , parameters(parameters)
   {
     stiffness.strain.resize(domain.mesh.cell_nodes.size());
     for (LocalIndex c = 0; c < stiffness.strain.size(); ++c)
-      stiffness.strain[c] = 1e-2 * domain.mesh.cell_size[c] * domain.mesh.cell_size[c] *
+      stiffness.strain[c] = strain_weight * domain.mesh.cell_size[c] * domain.mesh.cell_size[c] *
                             domain.density[c] * domain.open_volume(c);
     assembled = system.assemble(NodeSystem<dim>::Mass::faces, stiffness);
     solver = std::make_unique<LinearSolver>(parameters.solver,

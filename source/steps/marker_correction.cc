@@ -57,10 +57,14 @@ namespace treacle
     /// finest leaves.
     constexpr double reach = 1.25, thinnest = 0.5;
 
+    /// Wendland's function, whose Fourier transform is positive. With others the mean over
+    /// markers turns the sign of waves as short as the leaves, and what is taken off makes
+    /// them grow, step by step.
     double
     weight(const double squared_distance, const double h)
     {
-      return std::pow(1 - squared_distance / (reach * reach * h * h), 2);
+      const double r = std::sqrt(squared_distance) / (reach * h);
+      return std::pow(1 - r, 4) * (4 * r + 1);
     }
 
     /// A sheet of markers that face one way, as seen from a node.

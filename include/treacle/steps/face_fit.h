@@ -11,7 +11,7 @@ namespace treacle
 {
   /// The node velocity that fits the face velocity best: the minimiser of
   /// `1/2 |P v - u|^2 in M_f + 1/2 v·S v`, where S is a strain energy of weight
-  /// 1e-2 h^2. Rigid motions are reproduced exactly on any graded mesh with any
+  /// 1e-2 h^2 or as given. Rigid motions are reproduced exactly on any graded mesh with any
   /// surface.
   template <int dim>
   class FaceFit
@@ -28,7 +28,9 @@ namespace treacle
       }
     };
 
-    FaceFit(const Parameters &parameters, const LiquidDomain<dim> &domain);
+    FaceFit(const Parameters        &parameters,
+            const LiquidDomain<dim> &domain,
+            const double             strain_weight = 1e-2);
 
     /// Set v at the active nodes from u, starting from what it holds. Returns
     /// the number of iterations.
@@ -44,6 +46,7 @@ namespace treacle
 
     const NodeSystem<dim>    system;
     const LiquidDomain<dim> &domain;
+    const Parameters         parameters;
 
   private:
     typename NodeSystem<dim>::Stiffness stiffness;

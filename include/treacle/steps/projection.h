@@ -20,7 +20,7 @@ namespace treacle
   public:
     struct Parameters
     {
-      double                   minimum_theta = 0.01;
+      double                   minimum_theta = 1e-4;
       LinearSolver::Parameters solver{"amg", 1e-8, 1000};
 
       void

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) the Treacle authors
+"""What the exact cases measure: numbers from the statistics and the surfaces of a run."""
+
+import math
+from pathlib import Path
+
+import numpy
+
+from run_output import Run, read_parameters
+from statistics import read_statistics
+
+TIME = "Time (s)"
+
+
+class Results:
+    """A run that has ended: columns of its statistics by name, and its surfaces."""
+
+    def __init__(self, directory):
+        self.directory = directory
+        self.table = read_statistics(directory)
+        self.parameters = read_parameters(Path(directory) / "parameters.prm")
+        self._run = None
+
+    def __getitem__(self, column):
+        return self.table[column]
+
+    @property
+    def run(self):
+        self._run = self._run or Run(self.directory)
+        return self._run
+
+    def points(self, time):
+        """The vertices (n x 2) of the surface in the frame of this time, by x."""
+        interval = float(self.run.get("Frame interval"))
+        frame = round(time / interval)
+        if abs(frame * interval - time) > 1e-9:
+            raise ValueError(f"there is no frame at t = {time}")
+        points = self.run.surface(frame).points[:, :2]
+        return points[numpy.argsort(points[:, 0], kind="stable")]
+
+    def energy(self):
+        return self["Kinetic energy (J)"] + self["Potential energy (J)"]
+
+    def energy_gain(self):
+        """The largest rise of the total energy above what it was before, over the
+        largest kinetic energy plus the range of the potential one; 0 where the surface
+        is kept, for then gravity goes on working."""
+        if self.parameters.get("Steps/Surface") == "false":
+            return 0.
+        energy, potential = self.energy(), self["Potential energy (J)"]
+        rise = numpy.max(energy - numpy.minimum.accumulate(energy))
+        return rise / (numpy.max(self["Kinetic energy (J)"]) + numpy.ptp(potential))
+
+    def volume_drift(self):
+        """Where it is largest in size."""
+        drift = self["Volume drift"]
+        return drift[numpy.argmax(abs(drift))]
+
+
+def at(column, time, factor=1):
+    """The value of a column at a time at which a step ends, times a factor."""
+    def value(results):
+        k = int(numpy.argmin(abs(results[TIME] - time)))
+        if abs(results[TIME][k] - time) > 1e-9:
+            raise ValueError(f"no step ends at t = {time}")
+        return results[column][k] * factor
+    return value
+
+
+def interpolated(column, time, factor=1):
+    """The value of a column at any time, times a factor."""
+    return lambda results: numpy.interp(time, results[TIME], results[column]) * factor
+
+
+def rate(column, power=1):
+    """The decay rate of what is the power-th power of an amplitude: the slope of a line
+    through the logarithms."""
+    return lambda results: -numpy.polyfit(results[TIME], numpy.log(results[column]), 1)[0] / power
+
+
+def amplitude(points, k):
+    """Of cos(k x) in the height of a surface that spans half waves."""
+    x, y = points.T
+    mean = numpy.trapz(y, x) / numpy.ptp(x)
+    return 2 * numpy.trapz((y - mean) * numpy.cos(k * x), x) / numpy.ptp(x)
+
+
+def amplitudes(results, k, start=0, end=math.inf):
+    """Times and amplitudes of the frames between start and end."""
+    interval = float(results.run.get("Frame interval"))
+    times = numpy.array([frame * interval for frame in results.run.frames])
+    times = times[(times >= start - 1e-9) & (times <= end + 1e-9)]
+    return times, numpy.array([amplitude(results.points(t), k) for t in times])
+
+
+def surface_rate(k, start=0, end=math.inf):
+    """The decay rate of the mode cos(k x) of the surface."""
+    def value(results):
+        times, a = amplitudes(results, k, start, end)
+        return -numpy.polyfit(times, numpy.log(abs(a)), 1)[0]
+    return value
+
+
+def wave(k, start=0, end=math.inf):
+    """Decay rate and angular frequency of the mode cos(k x): a real pair of roots fits
+    a(t + d) + p a(t) + q a(t - d) = 0 best, for the longest d that resolves the wave."""
+    def fit(results):
+        times, a = amplitudes(results, k, start, end)
+        d = max(1, round(0.6 / (times[1] - times[0])))
+        known = numpy.stack([a[d:-d], a[:-2 * d]], axis=1)
+        p, q = numpy.linalg.lstsq(known, -a[2 * d:], rcond=None)[0]
+        root = numpy.log(numpy.roots([1, p, q]).astype(complex)[0]) / (d * (times[1] - times[0]))
+        return -root.real, abs(root.imag)
+    return lambda results: fit(results)[0], lambda results: fit(results)[1]
+
+
+def height(time, x=0):
+    """Of the surface at x: the highest crossing."""
+    def value(results):
+        run = results.run
+        frame = round(time / float(run.get("Frame interval")))
+        surface = run.surface(frame)
+        a, b = (surface.points[surface.facets[:, i], :2] for i in (0, 1))
+        tolerance = 1e-6
+        crossed = (numpy.minimum(a[:, 0], b[:, 0]) <= x + tolerance) & (
+            numpy.maximum(a[:, 0], b[:, 0]) >= x - tolerance)
+        a, b = a[crossed], b[crossed]
+        with numpy.errstate(divide="ignore", invalid="ignore"):
+            s = numpy.where(a[:, 0] == b[:, 0], 0, (x - a[:, 0]) / (b[:, 0] - a[:, 0]))
+        return numpy.max(a[:, 1] + numpy.clip(s, 0, 1) * (b[:, 1] - a[:, 1]))
+    return value
+
+
+def front(time, y=0):
+    """The largest x of the surface at this height."""
+    def value(results):
+        points = results.points(time)
+        return numpy.max(points[abs(points[:, 1] - y) < 1e-6, 0])
+    return value
