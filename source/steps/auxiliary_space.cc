@@ -229,8 +229,8 @@ namespace treacle
              "relative residual of "
           << last / norm << " in " << control.last_step() << " iterations instead of "
           << prm.relative_tolerance
-          << ". Raise Maximum iterations or Relative tolerance, or set Preconditioner = "
-             "jacobi.";
+          << ". Raise Maximum iterations, Relative tolerance or Pressure/Minimum theta, or "
+             "set Preconditioner = jacobi.";
         throw UserError(message.str());
       }
     return control.last_step();

@@ -25,7 +25,7 @@ namespace tests
   arguments(const int argc, char **argv)
   {
     std::vector<std::string> result;
-    for (const std::string argument : std::vector<std::string>(argv + 1, argv + argc))
+    for (const std::string &argument : std::vector<std::string>(argv + 1, argv + argc))
       if (const auto equals = argument.find('='); equals == std::string::npos)
         result.push_back(argument);
       else
@@ -71,8 +71,8 @@ namespace tests
       : prm(parse<dim>(text + settings(), 0))
       , scene(prm.scene)
       , state(full(mesh))
-      , domain(state, scene, prm.projection.minimum_theta)
-      , fit(prm.face_fit, domain)
+      , domain(state, scene, prm.dynamics.projection.minimum_theta)
+      , fit(prm.dynamics.face_fit, domain)
     {}
 
     /// Set the face velocity to that of a field.

@@ -152,8 +152,8 @@ namespace
                      "subsection Liquid 1\nset Shape = half space\nset Centre = " +
                      (dim == 2 ? "0.5, 0.02" : "0.5, 0.5, 0.02") +
                      "\nend\nsubsection Solid 1\nset Radius = 0.13\nset Centre = " +
-                     (dim == 2 ? "0.5, 0" : "0.5, 0.5, 0") +
-                     "\nend\nsubsection Viscosity\nset Mapping = face coupled\nset Stress model = " +
+                     (dim == 2 ? "0.5, 0\nset Velocity = 1; 2" : "0.5, 0.5, 0\nset Velocity = 1; 2; 3") +
+                     "\nend\nsubsection Pressure\nset Minimum theta = 0.01\nend\nsubsection Viscosity\nset Mapping = face coupled\nset Stress model = " +
                      stress_model + "\nend\n" + tolerance("1e-13"),
                    1);
     out() << dim << "D, " << stress_model << std::endl;

@@ -185,7 +185,7 @@ namespace
       momentum[node] = domain.node_mass[node] * (velocity(mesh.node_position[node]) -
                                                  dt * force(mesh.node_position[node]));
     const auto         assembled = system.assemble(NodeSystem<dim>::Mass::nodes, stiffness);
-    const LinearSolver solver(body.prm.viscosity.solver,
+    const LinearSolver solver(body.prm.dynamics.viscosity.solver,
                               "Viscosity",
                               *assembled.matrix,
                               system.stress_free_motions(stiffness));
@@ -202,7 +202,7 @@ namespace
     const LiquidDomain<dim> &domain = body.domain;
     const Mesh<dim>         &mesh   = domain.mesh;
     body.set_velocity([](const Point<dim> &x) { return velocity(x) - dt * force(x); });
-    Viscosity<dim>(body.prm.viscosity).advance(body.state, body.fit, dt);
+    Viscosity<dim>(body.prm.dynamics.viscosity).advance(body.state, body.fit, dt);
     Error of_faces;
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       if (domain.is_liquid_face(f))

@@ -78,7 +78,7 @@ namespace tests
   tolerance(const std::string &value)
   {
     std::string text = "subsection Linear solvers\n";
-    for (const std::string name : {"Pressure", "Viscosity", "Face fit"})
+    for (const std::string name : {"Pressure", "Viscosity", "Face fit", "Coupled"})
       text += "subsection " + name + "\nset Relative tolerance = " + value + "\nend\n";
     return text + "end\n";
   }

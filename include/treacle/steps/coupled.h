@@ -78,7 +78,7 @@ namespace treacle
     const typename NodeSystem<dim>::Stiffness stiffness;
     const Hybrid<dim>        hybrid;
     const LinearSolver       nodes_solver;
-    std::vector<double>      cell_viscosity; ///< 2 mu dt / V of each row
+    std::vector<double>      cell_compliance; ///< about 2 mu dt / V, of each row
     /// scratch
     mutable NodeVector<dim> v;
     mutable Vector          q, flux, force;
