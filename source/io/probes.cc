@@ -99,6 +99,7 @@ namespace treacle
   {
     const Mesh<dim>          &mesh = domain.mesh;
     const Locator<dim>        locator(mesh);
+    state.pressure.update_ghost_values();
     const auto                owners = locator.owners(positions);
     const unsigned int        rank   = Utilities::MPI::this_mpi_process(mesh.communicator());
     std::vector<double>       numbers(positions.size() * (dim + 1), 0.);
