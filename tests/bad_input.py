@@ -60,6 +60,8 @@ CASES = [
     ("markers lost", {"Liquid 1/Velocity": "20*sin(40*y); 20*cos(37*x)", "Maximum CFL number": "100",
                       "Maximum time step": "0.1", "Frame interval": "0.2", "End time": "0.2"},
      r"Surface tracking: \d+ of \d+ markers.*at t = .*Maximum CFL number"),
+    ("coupling that has another mapping", {"Viscosity/Mapping": "node PIC"},
+     r"Viscosity/Mapping = node PIC does not go with Pressure coupling = coupled"),
     ("probe outside the box", {"Probe 1/Position": "0.5, 1.5"}, r"Probe 1/Position lies outside the box"),
     ("probe outside the mesh", {"Mesh/Type": "file", "Mesh/File": "pair.msh", "Probe 1/Position": "0.9, 1.1"},
      r"Probe 1/Position lies outside the mesh"),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/exceptions.h>
 #include <treacle/steps/dynamics.h>
 
 namespace treacle
@@ -17,7 +18,7 @@ namespace treacle
                           coupling,
                           "Gravity, viscosity and projection in a row, or with a projection before "
                           "viscosity too, which follows slow flows much better, or viscosity and "
-                          "pressure in one solve with the mapping hybrid, whatever Mapping says.",
+                          "pressure in one solve, with the mapping hybrid alone.",
                           Patterns::Selection("split|split with first projection|coupled"));
     handler.add_parameter("Time scheme",
                           time_scheme,
@@ -28,6 +29,20 @@ namespace treacle
     handler.leave_subsection();
     projection.add_parameters(handler);
     coupled.add_parameters(handler);
+  }
+
+  template <int dim>
+  Dynamics<dim>::Dynamics(const Parameters &parameters, const StepSwitches &switches)
+    : prm(parameters)
+    , switches(switches)
+    , viscosity(parameters.viscosity)
+    , reconstruction(parameters.reconstruction)
+  {
+    require(prm.coupling != "coupled" || prm.viscosity.mapping == "hybrid" || !switches.pressure ||
+              !switches.viscosity,
+            "Viscosity/Mapping = " + prm.viscosity.mapping +
+              " does not go with Pressure coupling = coupled, which is solved with the mapping hybrid: "
+              "set Pressure coupling = split with first projection, or Mapping = hybrid.");
   }
 
   template <int dim>

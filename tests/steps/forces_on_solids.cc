@@ -85,7 +85,7 @@ namespace
                           std::string("subsection Gravity\nset Acceleration = ") +
                             (dim == 2 ? "0; 0" : "0; 0; 0") + "\nend\nsubsection Liquid 1\nset Shape = half space\nset Centre = " +
                             point<dim>(0, 10) + "\nset Normal = " + (dim == 2 ? "0, 1" : "0, 0, 1") +
-                            "\nend\nsubsection Viscosity\nset Mapping = " + mapping + "\nend\n",
+                            "\nend\nsubsection Viscosity\nset Pressure coupling = split with first projection\nset Mapping = " + mapping + "\nend\n",
                           pressure),
       2);
     const auto sides = parse<dim>(box_with_balls<dim>(3, 1.7, ""), 2).scene;

@@ -21,7 +21,7 @@ namespace treacle
   public:
     struct Parameters
     {
-      std::string                              coupling    = "split with first projection";
+      std::string                              coupling    = "coupled";
       std::string                              time_scheme = "backward Euler";
       typename Viscosity<dim>::Parameters      viscosity;
       typename Projection<dim>::Parameters     projection;
@@ -33,12 +33,8 @@ namespace treacle
       add_parameters(ParameterHandler &prm);
     };
 
-    Dynamics(const Parameters &parameters, const StepSwitches &switches)
-      : prm(parameters)
-      , switches(switches)
-      , viscosity(parameters.viscosity)
-      , reconstruction(parameters.reconstruction)
-    {}
+    /// Throws a UserError where the choices do not go together.
+    Dynamics(const Parameters &parameters, const StepSwitches &switches);
 
     struct Info
     {

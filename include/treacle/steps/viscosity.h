@@ -18,7 +18,7 @@ namespace treacle
   public:
     struct Parameters
     {
-      std::string              mapping           = "face fitted FLIP";
+      std::string              mapping           = "hybrid";
       std::string              stress_model      = "full";
       std::string              element_weighting = "liquid fraction";
       std::string              solid_walls       = "cut cells";
