@@ -6,6 +6,7 @@
 #include <treacle/mesh/locator.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace treacle
 {
@@ -17,8 +18,8 @@ namespace treacle
       return "Probe " + std::to_string(k + 1);
     }
 
-    /// Pressure at x, as a linear fit to the pressure cells around a node has it, or
-    /// their mean. The node is one of an owned cell.
+    /// Pressure at x, as a linear fit to the pressure cells around an owned node has it, or
+    /// their mean.
     template <int dim>
     double
     fitted_pressure(const State<dim>        &state,
@@ -28,10 +29,9 @@ namespace treacle
     {
       const Mesh<dim>      &mesh = domain.mesh;
       std::vector<LocalIndex> around;
-      for (LocalIndex c = 0; c < mesh.cell_nodes.size(); ++c)
-        if (domain.is_pressure_cell[c] && domain.liquid_volume[c] > 0 &&
-            std::find(mesh.cell_nodes[c].begin(), mesh.cell_nodes[c].end(), node) !=
-              mesh.cell_nodes[c].end())
+      for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+        if (const LocalIndex c = mesh.node_cells[k];
+            domain.is_pressure_cell[c] && domain.liquid_volume[c] > 0)
           around.push_back(c);
       if (around.empty())
         return 0;
@@ -97,36 +97,41 @@ namespace treacle
   std::vector<typename Probes<dim>::Values>
   Probes<dim>::read(const State<dim> &state, const LiquidDomain<dim> &domain) const
   {
-    const Mesh<dim>          &mesh = domain.mesh;
-    const Locator<dim>        locator(mesh);
+    if (positions.empty())
+      return {};
+    const Mesh<dim>    &mesh = domain.mesh;
+    const Locator<dim>  locator(mesh);
+    const auto          owners = locator.owners(positions);
+    const unsigned int  rank   = Utilities::MPI::this_mpi_process(mesh.communicator());
+    std::vector<double> numbers(positions.size() * (dim + 1), 0.);
+    const auto          size  = std::max_element(mesh.cell_size.begin(), mesh.cell_size.end());
+    const double        reach = 3 * Utilities::MPI::max(size == mesh.cell_size.end() ? 0. : *size,
+                                                 mesh.communicator());
     state.pressure.update_ghost_values();
-    const auto                owners = locator.owners(positions);
-    const unsigned int        rank   = Utilities::MPI::this_mpi_process(mesh.communicator());
-    std::vector<double>       numbers(positions.size() * (dim + 1), 0.);
     for (unsigned int k = 0; k < positions.size(); ++k)
-      if (owners[k].rank == rank)
-        {
-          const Location<dim>     location = locator.locate_here(owners[k].point);
-          const VertexValues<dim> phi      = mesh.values(location.cell, state.phi);
-          double                  distance = 0;
-          Tensor<1, dim>          v;
-          for (unsigned int i = 0; i <= dim; ++i)
-            {
-              distance += location.lambda[i] * phi[i];
-              v += location.lambda[i] * state.v.value(mesh.cell_nodes[location.cell][i]);
-            }
-          if (distance > 0)
-            continue;
-          for (unsigned int d = 0; d < dim; ++d)
-            numbers[k * (dim + 1) + d] = v[d];
-          // continuous, for a point between cells may be found in any of them
-          for (unsigned int i = 0; i <= dim; ++i)
-            numbers[k * (dim + 1) + dim] +=
-              location.lambda[i] * fitted_pressure(state,
-                                                   domain,
-                                                   mesh.cell_nodes[location.cell][i],
-                                                   location.point);
-        }
+      {
+        // at the nodes, by their owners: the cell that holds the point may be a ghost
+        Vector pressure = mesh.zeros(mesh.nodes);
+        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+          if (mesh.node_position[node].distance(positions[k]) < reach)
+            pressure.local_element(node) = fitted_pressure(state, domain, node, positions[k]);
+        pressure.update_ghost_values();
+        if (owners[k].rank != rank)
+          continue;
+        const Location<dim>     location = locator.locate_here(owners[k].point);
+        const auto             &nodes    = mesh.cell_nodes[location.cell];
+        const VertexValues<dim> phi      = mesh.values(location.cell, state.phi);
+        if (std::inner_product(phi.begin(), phi.end(), location.lambda.begin(), 0.) > 0)
+          continue;
+        for (unsigned int i = 0; i <= dim; ++i)
+          {
+            const Tensor<1, dim> v = state.v.value(nodes[i]);
+            for (unsigned int d = 0; d < dim; ++d)
+              numbers[k * (dim + 1) + d] += location.lambda[i] * v[d];
+            // continuous, for a point between cells may be found in any of them
+            numbers[k * (dim + 1) + dim] += location.lambda[i] * pressure.local_element(nodes[i]);
+          }
+      }
     Utilities::MPI::sum(numbers, mesh.communicator(), numbers);
     std::vector<Values> result(positions.size());
     for (unsigned int k = 0; k < positions.size(); ++k)
