@@ -208,11 +208,14 @@ namespace treacle
     const Pair b = right_hand_side(state);
     Pair       x(b), z(b);
     precondition(z, b);
-    const double norm = std::sqrt(b * z);
-    require(std::isfinite(norm),
+    require(std::isfinite(b.l2_norm()),
             "Linear solvers/Coupled: the right-hand side is not finite. Look for a velocity or "
             "force that grows without bound; a smaller Maximum time step may help.");
 
+    const double squared_norm = b * z;
+    if (b.l2_norm() > 0 && !(squared_norm > 0)) // the preconditioner is of no use
+      return {};
+    const double norm = std::sqrt(squared_norm);
     x.block(0)        = system.unknowns(state.v);
     const auto &cells = projection.cells();
     for (unsigned int i = 0; i < cells.size(); ++i)

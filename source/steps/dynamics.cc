@@ -113,7 +113,9 @@ namespace treacle
     advance(State<dim> &state, const double dt)
     {
       dynamics.forces.advance(state, domain, dt);
-      if (dynamics.prm.coupling != "coupled" || !projection || !dynamics.switches.viscosity)
+      // without a pressure cell there is nothing to be coupled
+      if (dynamics.prm.coupling != "coupled" || !dynamics.switches.viscosity || !projection ||
+          projection->pressure_rows().size() == 0)
         split(state, dt, dynamics.prm.coupling != "split");
       else if (couple(state, dt))
         // what the tolerance of the coupled solve leaves

@@ -82,7 +82,10 @@ namespace treacle
     , matrix([&matrix](Vector &y, const Vector &x) { matrix.vmult(y, x); })
   {
     if (matrix.m() == 0)
-      return;
+      {
+        preconditioner = [](Vector &z, const Vector &r) { z = r; };
+        return;
+      }
     const auto use = [&](const auto p) {
       preconditioner = [p](Vector &z, const Vector &r) { p->vmult(z, r); };
     };
