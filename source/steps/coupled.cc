@@ -48,7 +48,7 @@ namespace treacle
     , projection(projection)
     , dt(dt)
     , stiffness(stiffness)
-    , hybrid(system, stiffness, dt, Hybrid<dim>::Faces::beside_pressure)
+    , hybrid(system, stiffness, dt, Hybrid<dim>::Faces::coupled)
     , nodes_solver(viscosity_solver,
                    "Viscosity",
                    *hybrid.stiff.matrix,

@@ -66,6 +66,7 @@ namespace treacle
     std::unique_ptr<const Projection<dim>> projection;
     std::unique_ptr<const FaceFit<dim>>    fit;
     Reactions<dim>                         reactions;
+    const bool                             is_viscous; ///< anywhere
     Info                                   info{};
 
     void
@@ -81,10 +82,10 @@ namespace treacle
     split(State<dim> &state, const double dt, const bool with_first)
     {
       using Pass       = typename Projection<dim>::Pass;
-      const bool twice = dynamics.switches.viscosity && with_first;
+      const bool twice = is_viscous && with_first;
       if (twice)
         project(state, dt, Pass::first);
-      if (dynamics.switches.viscosity)
+      if (is_viscous)
         {
           const auto section = timing.section("viscosity");
           info.viscosity_iterations += dynamics.viscosity.advance(state, *fit, dt, &reactions);
@@ -114,7 +115,7 @@ namespace treacle
     {
       dynamics.forces.advance(state, domain, dt);
       // without a pressure cell there is nothing to be coupled
-      if (dynamics.prm.coupling != "coupled" || !dynamics.switches.viscosity || !projection ||
+      if (dynamics.prm.coupling != "coupled" || !is_viscous || !projection ||
           projection->pressure_rows().size() == 0)
         split(state, dt, dynamics.prm.coupling != "split");
       else if (couple(state, dt))
@@ -138,7 +139,16 @@ namespace treacle
                          const double             reach,
                          Timing                  &timing) const
   {
-    Stage stage{*this, domain, timing, nullptr, nullptr, Reactions<dim>(domain, state.time)};
+    const bool has_viscosity =
+      std::any_of(domain.viscosity.begin(), domain.viscosity.end(), [](const double mu) { return mu > 0; });
+    Stage stage{*this,
+                domain,
+                timing,
+                nullptr,
+                nullptr,
+                Reactions<dim>(domain, state.time),
+                switches.viscosity &&
+                  Utilities::MPI::max(has_viscosity ? 1 : 0, domain.mesh.communicator()) > 0};
     if (switches.pressure)
       {
         const auto section = timing.section("pressure");

@@ -3,6 +3,7 @@
 
 #include <treacle/fields/mapping.h>
 #include <treacle/steps/hybrid.h>
+#include <treacle/steps/pieces.h>
 
 #include <algorithm>
 
@@ -24,7 +25,7 @@ namespace treacle
                       const double                               dt,
                       const Faces                                faces)
     : system(system)
-    , faces(faces)
+    , is_idle(find_idle(faces))
   {
     const LiquidDomain<dim> &domain = system.domain;
     const Mesh<dim>         &mesh   = domain.mesh;
@@ -45,7 +46,7 @@ namespace treacle
         const double ratio = n > 0 ? drag * nu / n * dt / (h * h) : 0;
         const double s           = std::max(ratio / (1 + ratio), least_share);
         part.local_element(f)    = s;
-        weights.local_element(f) = domain.face_mass[f] * (takes_part(f) ? s : idle * s);
+        weights.local_element(f) = domain.face_mass[f] * (is_idle[f] ? idle * s : s);
       }
     part.update_ghost_values();
     weights.update_ghost_values();
@@ -58,15 +59,36 @@ namespace treacle
   }
 
   template <int dim>
-  bool
-  Hybrid<dim>::takes_part(const LocalIndex face) const
+  std::vector<unsigned char>
+  Hybrid<dim>::find_idle(const Faces faces) const
   {
+    const LiquidDomain<dim>   &domain = system.domain;
+    const Mesh<dim>           &mesh   = domain.mesh;
+    std::vector<unsigned char> result(mesh.n_owned_faces(), 0);
     if (faces == Faces::all)
-      return true;
-    const auto &cells = system.domain.mesh.face_cells[face];
-    return std::any_of(cells.begin(), cells.end(), [&](const LocalIndex c) {
-      return c != invalid && system.domain.is_pressure_cell[c];
-    });
+      return result;
+    const Numbering       active(mesh.cells, domain.is_active_cell);
+    const Vector          label = label_pieces(domain, active);
+    std::set<GlobalIndex> here;
+    for (const LocalIndex c : active.owned)
+      if (domain.is_pressure_cell[c])
+        here.insert(label.local_element(c));
+    const std::set<GlobalIndex> with_pressure = everywhere(mesh.communicator(), here);
+    for (LocalIndex f = 0; f < result.size(); ++f)
+      {
+        if (!domain.is_liquid_face(f))
+          continue;
+        bool is_beside_pressure = false, is_in_piece_with_pressure = false;
+        for (const LocalIndex c : mesh.face_cells[f])
+          if (c != invalid && domain.is_active_cell[c])
+            {
+              is_beside_pressure = is_beside_pressure || domain.is_pressure_cell[c];
+              is_in_piece_with_pressure =
+                is_in_piece_with_pressure || with_pressure.count(label.local_element(c)) > 0;
+            }
+        result[f] = is_in_piece_with_pressure && !is_beside_pressure;
+      }
+    return result;
   }
 
   template <int dim>
@@ -77,7 +99,7 @@ namespace treacle
     Vector           pull = mesh.zeros(mesh.faces);
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       if (system.domain.is_liquid_face(f))
-        pull.local_element(f) = takes_part(f) ? u.local_element(f) : face_velocity(mesh, v, f);
+        pull.local_element(f) = is_idle[f] ? face_velocity(mesh, v, f) : u.local_element(f);
     pull.update_ghost_values();
     return system.right_hand_side(system.face_momentum(pull, weight), stiff);
   }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/steps/pieces.h>
 #include <treacle/steps/projection.h>
 
 #include <map>
-#include <set>
 
 namespace treacle
 {
@@ -39,53 +39,8 @@ namespace treacle
   void
   Projection<dim>::find_closed_pockets()
   {
-    // spread the smallest number through each connected set of pressure cells
     const Mesh<dim> &mesh  = domain.mesh;
-    Vector           label = mesh.zeros(mesh.cells), open = mesh.zeros(mesh.cells);
-    for (LocalIndex c = 0; c < mesh.cell_nodes.size(); ++c)
-      label.local_element(c) =
-        number[c] == numbers::invalid_dof_index ? -1. : static_cast<double>(number[c]);
-    // the smallest label on top, or each smaller one would flood the rest again
-    std::vector<LocalIndex> stack(owned_cells.rbegin(), owned_cells.rend());
-    for (bool changed = true; changed;)
-      {
-        changed = false;
-        while (!stack.empty())
-          {
-            const LocalIndex c = stack.back();
-            stack.pop_back();
-            for (const LocalIndex f : mesh.cell_faces[c])
-              for (const LocalIndex other : mesh.face_cells[f])
-                if (other != invalid && other != c && domain.is_liquid_face(f) &&
-                    other < mesh.n_owned_cells() && label.local_element(other) >= 0)
-                  {
-                    double &mine = label.local_element(c), &theirs = label.local_element(other);
-                    if (theirs > mine)
-                      {
-                        theirs = mine;
-                        stack.push_back(other);
-                      }
-                    else if (mine > theirs)
-                      {
-                        mine = theirs;
-                        stack.push_back(c);
-                      }
-                  }
-          }
-        label.update_ghost_values();
-        for (const LocalIndex c : owned_cells)
-          for (const LocalIndex f : mesh.cell_faces[c])
-            for (const LocalIndex other : mesh.face_cells[f])
-              if (other != invalid && other >= mesh.n_owned_cells() && domain.is_liquid_face(f) &&
-                  label.local_element(other) >= 0 &&
-                  label.local_element(other) < label.local_element(c))
-                {
-                  label.local_element(c) = label.local_element(other);
-                  stack.push_back(c);
-                }
-        label.zero_out_ghost_values();
-        changed = Utilities::MPI::max(stack.empty() ? 0 : 1, mesh.communicator()) > 0;
-      }
+    const Vector     label = label_pieces(domain, numbering);
 
     // which labels see air?
     std::set<GlobalIndex> closed, seen_open;
@@ -97,16 +52,10 @@ namespace treacle
             if (other != invalid && domain.is_liquid_face(f) && !domain.is_pressure_cell[other])
               seen_open.insert(label.local_element(c));
       }
-    std::set<GlobalIndex> all_open, all_closed;
-    const auto everywhere = [&](const std::set<GlobalIndex> &here, std::set<GlobalIndex> &all) {
-      const std::vector<GlobalIndex> list(here.begin(), here.end());
-      for (const auto &part : Utilities::MPI::all_gather(mesh.communicator(), list))
-        all.insert(part.begin(), part.end());
-    };
-    everywhere(seen_open, all_open);
+    const auto all_open = everywhere(mesh.communicator(), seen_open);
     for (const GlobalIndex l : all_open)
       closed.erase(l);
-    everywhere(closed, all_closed);
+    const auto all_closed = everywhere(mesh.communicator(), closed);
 
     std::map<GlobalIndex, unsigned int> index;
     for (const GlobalIndex l : all_closed)

@@ -22,12 +22,12 @@ namespace treacle
   class Hybrid
   {
   public:
-    /// On which faces the drag acts in the system for v: on those of a coupled solve only
-    /// where there is a pressure beside them.
+    /// On which faces the drag acts in the system for v: on all, or, coupled with the pressure,
+    /// on those that it acts on, and on all of liquid without any pressure cell.
     enum class Faces
     {
       all,
-      beside_pressure
+      coupled
     };
 
     Hybrid(const NodeSystem<dim>                     &system,
@@ -45,11 +45,12 @@ namespace treacle
     typename NodeSystem<dim>::Assembled  stiff; ///< K + P^T s M P
 
   private:
-    bool
-    takes_part(const LocalIndex face) const;
+    /// Of owned faces.
+    std::vector<unsigned char>
+    find_idle(const Faces faces) const;
 
-    const Faces         faces;
-    std::vector<double> weight; ///< s M of each face in the system
+    const std::vector<unsigned char> is_idle; ///< owned faces that take no part
+    std::vector<double>              weight;  ///< s M of each face in the system
   };
 } // namespace treacle
 
