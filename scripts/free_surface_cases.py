@@ -6,7 +6,7 @@ from math import pi, sqrt
 
 import numpy
 
-from measures import at, front, height, interpolated, surface_rate, wave
+from measures import at, front, height, interpolated, last, surface_rate, wave
 
 LEFT, RIGHT, TOP = (f"Liquid {what} (m)" for what in ("minimum x", "maximum x", "maximum y"))
 SHALLOW = {"Domain/Upper corner": "1, 1", "Mesh/Root cells": "2",
@@ -45,10 +45,6 @@ def flux(results):
     """Boole's rule."""
     u = [0] + [results[f"Probe {k} velocity x (m/s)"][-1] for k in (1, 2, 3, 4)]
     return numpy.dot([7, 32, 12, 32, 7], u) / 90
-
-
-def last(column):
-    return lambda results: results[column][-1]
 
 
 AXES = [(0.08, 0.923272807, 1.08310349), (0.38, 0.694821252, 1.43921907),

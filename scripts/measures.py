@@ -30,13 +30,17 @@ class Results:
         self._run = self._run or Run(self.directory)
         return self._run
 
-    def points(self, time):
-        """The vertices (n x 2) of the surface in the frame of this time, by x."""
+    def surface(self, time):
+        """Of the frame of this time."""
         interval = float(self.run.get("Frame interval"))
         frame = round(time / interval)
         if abs(frame * interval - time) > 1e-9:
             raise ValueError(f"there is no frame at t = {time}")
-        points = self.run.surface(frame).points[:, :2]
+        return self.run.surface(frame)
+
+    def points(self, time):
+        """The vertices (n x 2) of the surface in the frame of this time, by x."""
+        points = self.surface(time).points[:, :2]
         return points[numpy.argsort(points[:, 0], kind="stable")]
 
     def energy(self):
@@ -66,6 +70,11 @@ def at(column, time, factor=1):
             raise ValueError(f"no step ends at t = {time}")
         return results[column][k] * factor
     return value
+
+
+def last(column):
+    """The last value of a column."""
+    return lambda results: results[column][-1]
 
 
 def interpolated(column, time, factor=1):
@@ -118,9 +127,7 @@ def wave(k, start=0, end=math.inf):
 def height(time, x=0):
     """Of the surface at x: the highest crossing."""
     def value(results):
-        run = results.run
-        frame = round(time / float(run.get("Frame interval")))
-        surface = run.surface(frame)
+        surface = results.surface(time)
         a, b = (surface.points[surface.facets[:, i], :2] for i in (0, 1))
         tolerance = 1e-6
         crossed = (numpy.minimum(a[:, 0], b[:, 0]) <= x + tolerance) & (

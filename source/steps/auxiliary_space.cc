@@ -16,11 +16,6 @@ namespace treacle
     // for (n·mean(v_i))^2 <= mean (n·v_i)^2. Measured: doc/method.md
     constexpr unsigned int degree = 16;
     constexpr double       range  = 150;
-
-    struct Multiplies
-    {
-      LinearSolver::Operator vmult;
-    };
   } // namespace
 
   template <int dim>
@@ -216,10 +211,10 @@ namespace treacle
     solver.connect(is_done);
     try
       {
-        solver.solve(Multiplies{[&](Vector &y, const Vector &x) { vmult(y, x); }},
+        solver.solve(Multiplies<Vector>{[&](Vector &y, const Vector &x) { vmult(y, x); }},
                      x,
                      rhs,
-                     Multiplies{[&](Vector &z, const Vector &r) { precondition(z, r); }});
+                     Multiplies<Vector>{[&](Vector &z, const Vector &r) { precondition(z, r); }});
       }
     catch (const SolverControl::NoConvergence &failure)
       {
@@ -241,10 +236,7 @@ namespace treacle
   AuxiliarySpace<dim>::solve(Vector &u) const
   {
     const double norm = face_coupled.right_hand_side(u).l2_norm();
-    require(
-      std::isfinite(norm),
-      "Linear solvers/Viscosity: the right-hand side is not finite. Look for a velocity "
-      "or force that grows without bound; a smaller Maximum time step may help.");
+    require_finite(norm, "Viscosity");
     if (norm == 0)
       return 0;
     Vector x = zero(), rhs = zero(), v_old(fit.shift);

@@ -80,10 +80,7 @@ namespace treacle
         v.component[d].local_element(nodes[i]) =
           domain.constrained[nodes[i]] >> d & 1 ? 0. : x.block(0).local_element(dim * i + d);
     v.update_ghost_values();
-    const auto &cells = projection.cells();
-    for (unsigned int i = 0; i < cells.size(); ++i)
-      q.local_element(cells[i]) = x.block(1).local_element(i);
-    q.update_ghost_values();
+    projection.to_cells(x.block(1), q);
   }
 
   template <int dim>
@@ -162,43 +159,20 @@ namespace treacle
   void
   Coupled<dim>::set_faces(State<dim> &state, const Pair &x, Reactions<dim> &reactions) const
   {
-    const Mesh<dim> &mesh  = domain.mesh;
-    const auto      &cells = projection.cells();
-    for (unsigned int i = 0; i < cells.size(); ++i)
-      q.local_element(cells[i]) = x.block(1).local_element(i);
-    q.update_ghost_values();
+    const Mesh<dim> &mesh = domain.mesh;
+    projection.to_cells(x.block(1), q);
     const Vector q_beyond = projection.extended(q);
     system.to_nodes(x.block(0), state.v);
-    // what viscosity alone would change: on what is prescribed pressure acts by itself
-    Vector before = mesh.zeros(mesh.faces), after = mesh.zeros(mesh.faces);
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       if (domain.is_liquid_face(f))
-        {
-          const double s = hybrid.share[f];
-          double      &u = state.u.local_element(f);
-          const double pushed = projection.impulse(f, q, q_beyond), carried = face_velocity(mesh, state.v, f);
-          before.local_element(f) = u + pushed;
-          u                       = (1 - s) * (u + pushed) + s * carried;
-          after.local_element(f)  = u;
-        }
-    before.update_ghost_values();
-    after.update_ghost_values();
-    reactions.add_stress(stiffness, state.v);
-    reactions.add_inertia(system, before, after);
+        state.u.local_element(f) += projection.impulse(f, q, q_beyond);
     state.u.update_ghost_values();
+    // on what is prescribed pressure acts by itself
+    hybrid.drag_faces(state, stiffness, &reactions);
     for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
       state.pressure.local_element(c) = q.local_element(c) / dt;
     state.pressure.update_ghost_values();
   }
-
-  namespace
-  {
-    template <typename Pair>
-    struct Multiplies
-    {
-      std::function<void(Pair &, const Pair &)> vmult;
-    };
-  } // namespace
 
   template <int dim>
   std::optional<unsigned int>
@@ -208,10 +182,7 @@ namespace treacle
     const Pair b = right_hand_side(state);
     Pair       x(b), z(b);
     precondition(z, b);
-    require(std::isfinite(b.l2_norm()),
-            "Linear solvers/Coupled: the right-hand side is not finite. Look for a velocity or "
-            "force that grows without bound; a smaller Maximum time step may help.");
-
+    require_finite(b.l2_norm(), "Coupled");
     const double squared_norm = b * z;
     if (b.l2_norm() > 0 && !(squared_norm > 0)) // the preconditioner is of no use
       return {};

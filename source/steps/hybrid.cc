@@ -104,6 +104,26 @@ namespace treacle
     return system.right_hand_side(system.face_momentum(pull, weight), stiff);
   }
 
+  template <int dim>
+  void
+  Hybrid<dim>::drag_faces(State<dim>                                &state,
+                          const typename NodeSystem<dim>::Stiffness &stiffness,
+                          Reactions<dim>                            *reactions) const
+  {
+    const Vector old_u = state.u;
+    old_u.update_ghost_values();
+    for (LocalIndex f = 0; f < system.domain.mesh.n_owned_faces(); ++f)
+      if (system.domain.is_liquid_face(f))
+        state.u.local_element(f) +=
+          share[f] * (face_velocity(system.domain.mesh, state.v, f) - state.u.local_element(f));
+    state.u.update_ghost_values();
+    if (reactions != nullptr)
+      {
+        reactions->add_stress(stiffness, state.v);
+        reactions->add_inertia(system, old_u, state.u);
+      }
+  }
+
   template class Hybrid<2>;
   template class Hybrid<3>;
 } // namespace treacle

@@ -113,20 +113,14 @@ namespace treacle
     , preconditioner(preconditioner)
   {}
 
-  namespace
+  void
+  require_finite(const double norm, const std::string &name)
   {
-    /// As SolverCG wants it.
-    struct Multiplies
-    {
-      const LinearSolver::Operator &apply;
-
-      void
-      vmult(Vector &y, const Vector &x) const
-      {
-        apply(y, x);
-      }
-    };
-  } // namespace
+    require(std::isfinite(norm),
+            "Linear solvers/" + name +
+              ": the right-hand side is not finite. Look for a velocity or force that grows "
+              "without bound; a smaller Maximum time step may help.");
+  }
 
   unsigned int
   LinearSolver::solve(Vector &x, const Vector &b) const
@@ -137,16 +131,12 @@ namespace treacle
         x = 0;
         return 0;
       }
-    // not-a-number would pass through the solver as if there were nothing to do
-    require(std::isfinite(norm),
-            "Linear solvers/" + name +
-              ": the right-hand side is not finite. Look for a velocity or force that grows "
-              "without bound; a smaller Maximum time step may help.");
+    require_finite(norm, name);
     SolverControl control(prm.maximum_iterations, prm.relative_tolerance * norm);
     try
       {
         SolverCG<Vector> solver(control);
-        solver.solve(Multiplies{matrix}, x, b, Multiplies{preconditioner});
+        solver.solve(Multiplies<Vector>{matrix}, x, b, Multiplies<Vector>{preconditioner});
       }
     catch (const SolverControl::NoConvergence &failure)
       {

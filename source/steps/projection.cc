@@ -159,6 +159,15 @@ namespace treacle
 
   template <int dim>
   void
+  Projection<dim>::to_cells(const Vector &x, Vector &q) const
+  {
+    for (unsigned int i = 0; i < owned_cells.size(); ++i)
+      q.local_element(owned_cells[i]) = x.local_element(i);
+    q.update_ghost_values();
+  }
+
+  template <int dim>
+  void
   Projection<dim>::balance(Vector &b) const
   {
     for (const Pocket &pocket : pockets)
@@ -218,9 +227,7 @@ namespace treacle
     take_off_mean(q);
 
     Vector q_cell = mesh.zeros(mesh.cells);
-    for (unsigned int i = 0; i < owned_cells.size(); ++i)
-      q_cell.local_element(owned_cells[i]) = q.local_element(i);
-    q_cell.update_ghost_values();
+    to_cells(q, q_cell);
     const Vector q_beyond = extended(q_cell);
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       if (domain.is_liquid_face(f))

@@ -5,20 +5,34 @@
 
 namespace treacle
 {
+  Tensor<1, 1>
+  moment(const Tensor<1, 2> &arm, const Tensor<1, 2> &force)
+  {
+    Tensor<1, 1> result;
+    result[0] = arm[0] * force[1] - arm[1] * force[0];
+    return result;
+  }
+
+  Tensor<1, 3>
+  moment(const Tensor<1, 3> &arm, const Tensor<1, 3> &force)
+  {
+    return cross_product_3d(arm, force);
+  }
+
   namespace
   {
-    Tensor<1, 1>
-    moment(const Tensor<1, 2> &arm, const Tensor<1, 2> &force)
+    template <int dim>
+    Tensor<2, dim>
+    stress(const typename NodeSystem<dim>::Stiffness &stiffness,
+           const LocalIndex                           cell,
+           const Tensor<2, dim>                      &grad)
     {
-      Tensor<1, 1> result;
-      result[0] = arm[0] * force[1] - arm[1] * force[0];
+      Tensor<2, dim> result;
+      if (!stiffness.strain.empty())
+        result += stiffness.strain[cell] * (grad + transpose(grad));
+      if (!stiffness.gradient.empty())
+        result += stiffness.gradient[cell] * grad;
       return result;
-    }
-
-    Tensor<1, 3>
-    moment(const Tensor<1, 3> &arm, const Tensor<1, 3> &force)
-    {
-      return cross_product_3d(arm, force);
     }
   } // namespace
 
@@ -56,14 +70,10 @@ namespace treacle
         Tensor<2, dim> grad;
         for (unsigned int i = 0; i <= dim; ++i)
           grad += outer_product(v.value(nodes[i]), g[i]);
-        Tensor<2, dim> stress;
-        if (!stiffness.strain.empty())
-          stress += stiffness.strain[c] * (grad + transpose(grad));
-        if (!stiffness.gradient.empty())
-          stress += stiffness.gradient[c] * grad;
+        const Tensor<2, dim> sigma = stress<dim>(stiffness, c, grad);
         for (unsigned int i = 0; i <= dim; ++i)
           if (nodes[i] < mesh.n_owned_nodes())
-            add_at_node(nodes[i], factor * (stress * g[i]));
+            add_at_node(nodes[i], factor * (sigma * g[i]));
       }
   }
 
@@ -86,16 +96,12 @@ namespace treacle
           grad += outer_product(part.vertex[k] == CutCells<dim>::on_wall ? part.velocity[k] :
                                                                            v.value(nodes[part.vertex[k]]),
                                 part.gradient[k]);
-        Tensor<2, dim> stress;
-        if (!stiffness.strain.empty())
-          stress += stiffness.strain[c] * (grad + transpose(grad));
-        if (!stiffness.gradient.empty())
-          stress += stiffness.gradient[c] * grad;
+        const Tensor<2, dim> sigma = stress<dim>(stiffness, c, grad);
         for (unsigned int k = 0; k <= dim; ++k)
           if (part.vertex[k] != CutCells<dim>::on_wall)
             {
               const LocalIndex     node    = nodes[part.vertex[k]];
-              const Tensor<1, dim> impulse = factor * part.fraction * (stress * part.gradient[k]);
+              const Tensor<1, dim> impulse = factor * part.fraction * (sigma * part.gradient[k]);
               if (node < mesh.n_owned_nodes())
                 add_at_node(node, impulse);
               // forces and, as stress is symmetric, moments of a part sum to zero: the wall's
@@ -138,8 +144,7 @@ namespace treacle
           {
             const LocalIndex node = mesh.face_nodes[f][i];
             x[i]                  = mesh.node_position[node];
-            held[i] =
-              std::min(domain.solid_distance[node], domain.scene.emitter_distance(x[i], time));
+            held[i]               = domain.held_distance[node];
           }
         const bool   is_wall = mesh.face_side[f] != Mesh<dim>::no_side;
         const double part =

@@ -32,7 +32,7 @@ namespace treacle
     fit_smoothly(const FaceFit<dim> &fit, const Vector &u, NodeVector<dim> &v)
     {
       const LiquidDomain<dim> &domain = fit.domain;
-      const FaceFit<dim>       smooth(fit.parameters, domain, 0.15);
+      const FaceFit<dim>       smooth(fit, 0.15);
       smooth.solve(u, v);
       Vector again = u;
       again.zero_out_ghost_values();

@@ -2,7 +2,6 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/steps/auxiliary_space.h>
-#include <treacle/geometry/simplex.h>
 #include <treacle/steps/hybrid.h>
 #include <treacle/steps/viscosity.h>
 
@@ -162,18 +161,7 @@ namespace treacle
     Vector             x          = fit.system.unknowns(state.v);
     const unsigned int iterations = solver.solve(x, hybrid.right_hand_side(state.u, state.v));
     fit.system.to_nodes(x, state.v);
-    const Vector old_u = state.u;
-    old_u.update_ghost_values();
-    for (LocalIndex f = 0; f < fit.domain.mesh.n_owned_faces(); ++f)
-      if (fit.domain.is_liquid_face(f))
-        state.u.local_element(f) +=
-          hybrid.share[f] * (face_velocity(fit.domain.mesh, state.v, f) - state.u.local_element(f));
-    state.u.update_ghost_values();
-    if (reactions != nullptr)
-      {
-        reactions->add_stress(stiffness, state.v);
-        reactions->add_inertia(fit.system, old_u, state.u);
-      }
+    hybrid.drag_faces(state, stiffness, reactions);
     return iterations;
   }
 

@@ -4,6 +4,7 @@
 #ifndef treacle_tests_steps_body_h
 #define treacle_tests_steps_body_h
 
+#include "../tests.h"
 #include "run_scene.h"
 
 #include <treacle/io/measures.h>
@@ -52,6 +53,22 @@ namespace tests
     for (unsigned int i = first; i < arguments.size(); ++i)
       result.push_back(std::stoi(arguments[i]));
     return result;
+  }
+
+  /// A dimension and levels among the arguments are for a person; without them the test runs
+  /// on 1, 2 and 3 ranks.
+  template <typename InTwo, typename InThree, typename Test>
+  void
+  run(const int argc, char **argv, const InTwo &in_two, const InThree &in_three, const Test &test)
+  {
+    const auto arguments = tests::arguments(argc, argv);
+    const auto levels    = tests::levels(arguments, 1);
+    if (levels.empty())
+      on_1_2_3_ranks(test);
+    else if (arguments[0] == "2")
+      in_two(MPI_COMM_WORLD, levels);
+    else
+      in_three(MPI_COMM_WORLD, levels);
   }
 
   /// A body of liquid as a parameter text describes it, for single steps.

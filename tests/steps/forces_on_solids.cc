@@ -58,20 +58,6 @@ namespace
     return result;
   }
 
-  Tensor<1, 1>
-  moment(const Tensor<1, 2> &arm, const Tensor<1, 2> &force)
-  {
-    Tensor<1, 1> result;
-    result[0] = arm[0] * force[1] - arm[1] * force[0];
-    return result;
-  }
-
-  Tensor<1, 3>
-  moment(const Tensor<1, 3> &arm, const Tensor<1, 3> &force)
-  {
-    return cross_product_3d(arm, force);
-  }
-
   /// The forces against the change of momentum in each step, relative to them.
   template <int dim>
   void

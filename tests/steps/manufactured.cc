@@ -240,15 +240,8 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const auto arguments = tests::arguments(argc, argv);
-  const auto levels    = tests::levels(arguments, 1);
-  if (!levels.empty() && arguments[0] == "2")
-    check<2>(MPI_COMM_WORLD, levels);
-  else if (!levels.empty())
-    check<3>(MPI_COMM_WORLD, levels);
-  else
-    on_1_2_3_ranks([](const MPI_Comm &comm) {
-      check<2>(comm, {4, 5});
-      check<3>(comm, {3});
-    });
+  run(argc, argv, check<2>, check<3>, [](const MPI_Comm &comm) {
+    check<2>(comm, {4, 5});
+    check<3>(comm, {3});
+  });
 }

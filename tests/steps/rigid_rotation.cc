@@ -63,18 +63,11 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const auto arguments = tests::arguments(argc, argv);
-  const auto levels    = tests::levels(arguments, 1);
-  if (!levels.empty() && arguments[0] == "2")
-    print<2>(MPI_COMM_WORLD, levels);
-  else if (!levels.empty())
-    print<3>(MPI_COMM_WORLD, levels);
-  else
-    on_1_2_3_ranks([&](const MPI_Comm &comm) {
-      for (const char *mapping : mappings)
-        {
-          check<2>(comm, mapping, 3);
-          check<3>(comm, mapping, 3);
-        }
-    });
+  run(argc, argv, print<2>, print<3>, [&](const MPI_Comm &comm) {
+    for (const char *mapping : mappings)
+      {
+        check<2>(comm, mapping, 3);
+        check<3>(comm, mapping, 3);
+      }
+  });
 }

@@ -97,15 +97,8 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const auto arguments = tests::arguments(argc, argv);
-  const auto levels    = tests::levels(arguments, 1);
-  if (!levels.empty() && arguments[0] == "2")
-    check_all<2>(MPI_COMM_WORLD, levels);
-  else if (!levels.empty())
-    check_all<3>(MPI_COMM_WORLD, levels);
-  else
-    on_1_2_3_ranks([](const MPI_Comm &comm) {
-      check_all<2>(comm, {4, 5});
-      check_all<3>(comm, {3});
-    });
+  run(argc, argv, check_all<2>, check_all<3>, [](const MPI_Comm &comm) {
+    check_all<2>(comm, {4, 5});
+    check_all<3>(comm, {3});
+  });
 }

@@ -65,6 +65,7 @@ namespace treacle
     std::vector<unsigned char> is_active_node; ///< of an active cell
     std::vector<double>        node_mass;      ///< lumped liquid mass (kg), owned nodes
     std::vector<double>        solid_distance; ///< positive outside solids
+    std::vector<double>        held_distance;  ///< positive outside solids and emitters
     std::vector<unsigned char> is_emitter_node; ///< in an emitter at work
     /// Bit d is set where component d is prescribed (no slip, free slip, solids,
     /// emitters).
@@ -105,10 +106,6 @@ namespace treacle
 
     void
     measure_nodes(const State<dim> &state);
-
-    /// Distance at nodes to what prescribes the velocity, solid or emitter, positive
-    /// outside.
-    std::vector<double> held_distance;
   };
 } // namespace treacle
 

@@ -28,12 +28,13 @@ namespace treacle
       }
     };
 
-    FaceFit(const Parameters        &parameters,
-            const LiquidDomain<dim> &domain,
-            const double             strain_weight = 1e-2);
+    FaceFit(const Parameters &parameters, const LiquidDomain<dim> &domain);
+
+    /// The same with another weight of the strain energy, in parts of h^2.
+    FaceFit(const FaceFit &other, const double strain_weight);
 
     /// Set v at the active nodes from u, starting from what it holds. Returns
-    /// the number of iterations.
+    /// the number of iterations. The first call sets up the solver. Collective.
     unsigned int
     solve(const Vector &u, NodeVector<dim> &v) const;
 
@@ -44,14 +45,22 @@ namespace treacle
       return stiffness.strain;
     }
 
-    const NodeSystem<dim>    system;
+  private:
+    const Parameters                             prm;
+    const std::shared_ptr<const NodeSystem<dim>> shared_system;
+
+  public:
+    const NodeSystem<dim>   &system;
     const LiquidDomain<dim> &domain;
-    const Parameters         parameters;
 
   private:
-    typename NodeSystem<dim>::Stiffness stiffness;
-    typename NodeSystem<dim>::Assembled assembled;
-    std::unique_ptr<LinearSolver>       solver;
+    FaceFit(const Parameters                             &parameters,
+            const std::shared_ptr<const NodeSystem<dim>> &system,
+            const double                                  strain_weight);
+
+    typename NodeSystem<dim>::Stiffness         stiffness;
+    mutable typename NodeSystem<dim>::Assembled assembled;
+    mutable std::unique_ptr<LinearSolver>       solver; ///< null before the first solve
   };
 } // namespace treacle
 

@@ -4,7 +4,7 @@
 #ifndef treacle_steps_hybrid_h
 #define treacle_steps_hybrid_h
 
-#include <treacle/steps/node_system.h>
+#include <treacle/steps/reactions.h>
 
 namespace treacle
 {
@@ -39,6 +39,13 @@ namespace treacle
     /// if nothing else does, to where it is.
     Vector
     right_hand_side(const Vector &u, const NodeVector<dim> &v) const;
+
+    /// state.u = (1 - s) state.u + s P v with state.v. What holds the prescribed nodes, for
+    /// K of this stiffness, is added to the reactions, if there are such.
+    void
+    drag_faces(State<dim>                                &state,
+               const typename NodeSystem<dim>::Stiffness &stiffness,
+               Reactions<dim>                            *reactions) const;
 
     const NodeSystem<dim>               &system;
     std::vector<double>                  share; ///< s of each face, owned or ghost

@@ -25,6 +25,18 @@ namespace treacle
     std::vector<double> vectors;
   };
 
+  /// As deal.II's solvers want a linear map.
+  template <typename VectorType>
+  struct Multiplies
+  {
+    std::function<void(VectorType &, const VectorType &)> vmult;
+  };
+
+  /// Throws a UserError on all ranks alike if the norm of a right-hand side is not finite;
+  /// not-a-number would pass through the solver as if there were nothing to do.
+  void
+  require_finite(const double norm, const std::string &name);
+
   /// Conjugate gradients on a symmetric positive definite matrix or operator.
   class LinearSolver
   {

@@ -59,6 +59,10 @@ namespace treacle
       return rows;
     }
 
+    /// Write the rows of x to their cells, and update the ghosts; q is zero elsewhere.
+    void
+    to_cells(const Vector &x, Vector &q) const;
+
     /// Does the pressure act on this liquid face? Not on those of wet cells that touch no
     /// pressure cell.
     bool

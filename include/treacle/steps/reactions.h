@@ -18,6 +18,12 @@ namespace treacle
     Tensor<1, n_rotations> torque; ///< N m
   };
 
+  Tensor<1, 1>
+  moment(const Tensor<1, 2> &arm, const Tensor<1, 2> &force);
+
+  Tensor<1, 3>
+  moment(const Tensor<1, 3> &arm, const Tensor<1, 3> &force);
+
   /// The impulse that bodies give to the liquid in one step, as the discrete equations have
   /// it: the viscous step's reaction at prescribed components of nodes, and the pressure on
   /// the closed parts of faces. With a face-fitted mapping the forces are exactly what
