@@ -183,6 +183,8 @@ namespace treacle
               std::to_string(frame) + " is at t = " + digits(state->time) + " s.");
     require(state->material.has_value() == scene.has_advected_material(),
             "Material/Transport: it must be the one of the run that is resumed.");
+    if (!time_step.is_second_order())
+      state->before.reset();
     volume                  = progress.scalars.at("volume");
     reach                   = time_step.reach(*state->mesh);
     domain = dynamics.liquid_domain(*state, scene);
@@ -287,10 +289,10 @@ namespace treacle
   void
   Simulator<dim>::move_surface(const double dt)
   {
-    const Advection<dim> advection(prm.advection, *state, *domain);
+    const Advection<dim> advection(prm.advection, *state, *domain, dt);
     const auto           markers = [&] {
       const auto section = timing.section("markers");
-      return advection.move_markers(dt);
+      return advection.move_markers();
     }();
     const auto mesh = [&] {
       const auto section = timing.section("mesh");
@@ -299,7 +301,10 @@ namespace treacle
     info.rebuilt = mesh != state->mesh;
     State<dim> next = [&] {
       const auto section = timing.section("advection");
-      return advection.advance(mesh, dt, reach);
+      State<dim> state = advection.advance(mesh, reach);
+      if (time_step.is_second_order())
+        state.before = advection.velocity_before(*mesh);
+      return state;
     }();
     {
       const auto section = timing.section("surface");
@@ -325,12 +330,13 @@ namespace treacle
     const auto section = timing.section("advection");
     if (!prm.steps.advection)
       {
-        state->time += dt;
-        ++state->step;
+        stay(dt);
         return;
       }
-    State<dim> next =
-      Advection<dim>(prm.advection, *state, *domain).advance(state->mesh, dt, reach);
+    const Advection<dim> advection(prm.advection, *state, *domain, dt);
+    State<dim>           next = advection.advance(state->mesh, reach);
+    if (time_step.is_second_order())
+      next.before = advection.velocity_before(*state->mesh);
     next.phi     = state->phi;
     next.v       = state->v; // the first guess of the next solves
     next.markers = std::move(state->markers);
@@ -342,9 +348,28 @@ namespace treacle
 
   template <int dim>
   void
+  Simulator<dim>::stay(const double dt)
+  {
+    const BackwardDifference difference(dt, *state);
+    VelocityBefore<dim>      before(*state->mesh, dt);
+    state->u.zero_out_ghost_values();
+    before.u = state->u;
+    if (difference.before != 0)
+      state->u.sadd(difference.now, difference.before, state->before->u);
+    before.u.update_ghost_values();
+    state->u.update_ghost_values();
+    if (time_step.is_second_order())
+      state->before = std::move(before);
+    state->time += dt;
+    ++state->step;
+  }
+
+  template <int dim>
+  void
   Simulator<dim>::step(const double dt)
   {
-    Timer wall;
+    Timer                    wall;
+    const BackwardDifference difference(dt, *state);
     info    = StepInfo<dim>();
     info.dt = dt;
     if (prm.steps.surface)
@@ -355,7 +380,7 @@ namespace treacle
       const auto section = timing.section("liquid domain");
       domain = dynamics.liquid_domain(*state, scene);
     }
-    info.dynamics  = dynamics.advance(*state, *domain, dt, reach, timing);
+    info.dynamics  = dynamics.advance(*state, *domain, difference.step, reach, timing);
     info.wall_time = wall.wall_time();
     report();
   }

@@ -96,6 +96,10 @@ namespace treacle
     void
     keep_surface(const double dt);
 
+    /// Nothing moves.
+    void
+    stay(const double dt);
+
     void
     output_frame();
 

@@ -72,18 +72,33 @@ namespace treacle
       return result;
     }
 
-    /// Level set, velocity and material at the nodes of a cell, face velocity, pressure.
+    /// Level set, velocity (and that of the step before) and material at the nodes of a
+    /// cell, face velocity (and that of the step before), pressure.
     template <int dim>
     unsigned int
-    row_size(const bool with_material)
+    row_size(const bool with_material, const bool with_before)
     {
-      return (dim + 1) * (dim + 2 + (with_material ? 2 : 0)) + 1;
+      return (dim + 1) * (dim + 2 + (with_material ? 2 : 0) + (with_before ? dim + 1 : 0)) + 1;
     }
 
     bool
     has_material(const CheckpointInfo &info)
     {
       return info.get("Advected material") == "true";
+    }
+
+    /// Zero if there is none.
+    double
+    step_before(const CheckpointInfo &info)
+    {
+      return std::stod(info.get("Step before"));
+    }
+
+    template <int dim>
+    unsigned int
+    row_size(const CheckpointInfo &info)
+    {
+      return row_size<dim>(has_material(info), step_before(info) > 0);
     }
 
     /// Call @p visit with each number of the rows of this rank's cells in turn.
@@ -99,6 +114,9 @@ namespace treacle
               visit(state.phi, node, mesh.n_owned_nodes());
               for (unsigned int d = 0; d < dim; ++d)
                 visit(state.v.component[d], node, mesh.n_owned_nodes());
+              if (state.before)
+                for (unsigned int d = 0; d < dim; ++d)
+                  visit(state.before->v.component[d], node, mesh.n_owned_nodes());
               if (state.material)
                 {
                   visit(state.material->density, node, mesh.n_owned_nodes());
@@ -106,7 +124,11 @@ namespace treacle
                 }
             }
           for (const LocalIndex face : mesh.cell_faces[c])
-            visit(state.u, face, mesh.n_owned_faces());
+            {
+              visit(state.u, face, mesh.n_owned_faces());
+              if (state.before)
+                visit(state.before->u, face, mesh.n_owned_faces());
+            }
           visit(state.pressure, c, mesh.n_owned_cells());
         }
     }
@@ -120,9 +142,10 @@ namespace treacle
     {
       const Mesh<dim> &mesh = *state.mesh;
       const auto      &box  = mesh.box().get_boundary_points();
-      out << std::setprecision(17) << "Format = 2\nDimension = " << dim
+      out << std::setprecision(17) << "Format = 3\nDimension = " << dim
           << "\nRanks = " << Utilities::MPI::n_mpi_processes(mesh.communicator())
           << "\nTime = " << state.time << "\nStep = " << state.step
+          << "\nStep before = " << (state.before ? state.before->dt : 0.)
           << "\nFrame = " << progress.frame << "\nCells = " << mesh.cells->size()
           << "\nAdvected material = " << (state.material ? "true" : "false")
           << "\nMarkers = " << n_markers
@@ -178,7 +201,7 @@ namespace treacle
       TableFile<int>::write(comm, fresh + "/leaves", numbers_of_leaves(mesh.octree()));
 
     std::vector<double> rows;
-    const unsigned int size = row_size<dim>(state.material.has_value());
+    const unsigned int size = row_size<dim>(state.material.has_value(), state.before.has_value());
     rows.reserve(size * mesh.n_owned_cells());
     for_each_number<dim>(state,
                          [&](const Vector &v, const LocalIndex i, const LocalIndex) {
@@ -277,7 +300,7 @@ namespace treacle
               "\". Start it without --resume.");
 
     const CheckpointInfo info(text, info_file(directory));
-    info.require_same("Format", "the format", "2");
+    info.require_same("Format", "the format", "3");
     info.require_same("Dimension", "Dimension", std::to_string(dim));
     info.require_same("Mesh type", "Mesh/Type", mesh_type);
     return {directory, info};
@@ -308,7 +331,7 @@ namespace treacle
     require(info.get("Cells") == std::to_string(mesh->cells->size()),
             "The checkpoint \"" + directory + "\" is damaged: its leaves do not make " +
               info.get("Cells") + " cells.");
-    const unsigned int n = row_size<dim>(has_material(info));
+    const unsigned int n = row_size<dim>(info);
     return load_state(mesh,
                       directory,
                       info,
@@ -328,7 +351,7 @@ namespace treacle
     info.require_same("Nodes", "the number of vertices of Mesh/File", std::to_string(imported->nodes->size()));
     info.require_same("Lower corner", "the lower corner of Mesh/File", to_text(lower, 17));
     info.require_same("Upper corner", "the upper corner of Mesh/File", to_text(upper, 17));
-    const RowOrder<dim> order(*imported, row_size<dim>(has_material(info)));
+    const RowOrder<dim> order(*imported, row_size<dim>(info));
     return load_state(imported,
                       directory,
                       info,
@@ -346,6 +369,8 @@ namespace treacle
     State<dim> state(mesh);
     if (has_material(info))
       state.material = CarriedMaterial(mesh->nodes);
+    if (step_before(info) > 0)
+      state.before.emplace(*mesh, step_before(info));
     state.time = std::stod(info.get("Time"));
     state.step = std::stoul(info.get("Step"));
     auto next  = rows.begin();
@@ -358,6 +383,11 @@ namespace treacle
                          });
     if (state.material)
       state.material->update_ghost_values();
+    if (state.before)
+      {
+        state.before->v.update_ghost_values();
+        state.before->u.update_ghost_values();
+      }
     state.markers = load_markers<dim>(*mesh, directory, std::stoull(info.get("Markers")));
     state.phi.update_ghost_values();
     state.u.update_ghost_values();

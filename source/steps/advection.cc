@@ -1,50 +1,45 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/fields/mapping.h>
 #include <treacle/mesh/tracer.h>
 #include <treacle/steps/advection.h>
 #include <treacle/steps/back_and_forth.h>
 #include <treacle/steps/marker_correction.h>
+#include <treacle/steps/surface_velocity.h>
 
 namespace treacle
 {
   namespace
   {
-    /// Replace the prescribed components of the velocity by the mean over free nodes of
-    /// the cells around them, layer by layer.
+    template <int dim>
+    std::vector<Point<dim>>
+    owned_nodes(const Mesh<dim> &mesh)
+    {
+      return {mesh.node_position.begin(), mesh.node_position.begin() + mesh.n_owned_nodes()};
+    }
+
+    /// a v + b w
     template <int dim>
     NodeVector<dim>
-    slipping_velocity(const State<dim> &state, const LiquidDomain<dim> &domain)
+    combined(const double a, const NodeVector<dim> &v, const double b, const NodeVector<dim> &w)
     {
-      const Mesh<dim>  &mesh = domain.mesh;
-      NodeVector<dim> v    = state.v;
-      Vector            free = mesh.zeros(mesh.nodes);
-      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-        free.local_element(node) =
-          domain.constrained[node] == 0 || domain.is_emitter_node[node];
-      for (unsigned int layer = 0; layer < 3; ++layer)
+      NodeVector<dim> result = v;
+      for (unsigned int d = 0; d < dim; ++d)
         {
-          free.update_ghost_values();
-          v.update_ghost_values();
-          const NodeVector<dim> known = v;
-          known.update_ghost_values();
-          const Vector was_free = free;
-          was_free.update_ghost_values();
-          Tensor<1, dim> mean;
-          for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-            {
-              if (was_free.local_element(node) > 0 ||
-                  !mean_of_neighbours(mesh, known, was_free, node, mean))
-                continue;
-              for (unsigned int d = 0; d < dim; ++d)
-                if (domain.constrained[node] >> d & 1)
-                  v.component[d].local_element(node) = mean[d];
-              free.local_element(node) = 1;
-            }
+          result.component[d].zero_out_ghost_values();
+          result.component[d].sadd(a, b, w.component[d]);
         }
-      v.update_ghost_values();
-      return v;
+      result.update_ghost_values();
+      return result;
+    }
+
+    /// In the middle of the step: as steady as it was before it.
+    template <int dim>
+    NodeVector<dim>
+    velocity_in_middle(const State<dim> &old, const double dt, const BackwardDifference &difference)
+    {
+      const double part = difference.before == 0 ? 0. : 0.5 * dt / old.before->dt;
+      return combined(1 + part, old.v, -part, part == 0 ? old.v : old.before->v);
     }
   } // namespace
 
@@ -64,30 +59,34 @@ namespace treacle
   template <int dim>
   Advection<dim>::Advection(const Parameters        &parameters,
                             const State<dim>        &old,
-                            const LiquidDomain<dim> &domain)
+                            const LiquidDomain<dim> &domain,
+                            const double             dt)
     : prm(parameters)
     , old(old)
-    , surface_velocity(slipping_velocity(old, domain))
+    , dt(dt)
+    , difference(dt, old)
+    , velocity(velocity_in_middle(old, dt, difference))
+    , surface_velocity(treacle::surface_velocity(old, domain, velocity))
     , phi(*old.mesh, old.phi)
   {}
 
   template <int dim>
   std::vector<Point<dim>>
-  Advection<dim>::move_surface(const std::vector<Point<dim>> &x, const double dt) const
+  Advection<dim>::move_surface(const std::vector<Point<dim>> &x) const
   {
     return Tracer<dim>(*old.mesh).trace(x, surface_velocity, dt);
   }
 
   template <int dim>
   std::vector<Marker<dim>>
-  Advection<dim>::move_markers(const double dt) const
+  Advection<dim>::move_markers() const
   {
     return moved_markers(old, surface_velocity, dt);
   }
 
   template <int dim>
   std::vector<double>
-  Advection<dim>::level_set(const std::vector<Point<dim>> &x, const double dt) const
+  Advection<dim>::level_set(const std::vector<Point<dim>> &x) const
   {
     return phi.values(Tracer<dim>(*old.mesh).trace(x, surface_velocity, -dt));
   }
@@ -124,9 +123,7 @@ namespace treacle
 
   template <int dim>
   State<dim>
-  Advection<dim>::advance(std::shared_ptr<const Mesh<dim>> mesh,
-                          const double                     dt,
-                          const double                     reach) const
+  Advection<dim>::advance(std::shared_ptr<const Mesh<dim>> mesh, const double reach) const
   {
     State<dim> state(mesh);
     state.time = old.time + dt;
@@ -134,21 +131,40 @@ namespace treacle
     if (mesh == old.mesh)
       state.pressure = old.pressure;
     state.pressure.update_ghost_values();
-    advance_nodes(state, dt, reach);
-    advance_faces(state, dt, reach);
+    advance_nodes(state, reach);
+    advance_faces(state, reach);
     return state;
   }
 
   template <int dim>
+  VelocityBefore<dim>
+  Advection<dim>::velocity_before(const Mesh<dim> &mesh) const
+  {
+    VelocityBefore<dim> before(mesh, dt);
+    if (&mesh == old.mesh.get())
+      before.v = combined(1, old.v, 0, old.v);
+    else
+      {
+        std::vector<NodeField<dim>> fields;
+        for (const Vector &component : old.v.component)
+          fields.push_back({&component});
+        const std::vector<double> v = Tracer<dim>(*old.mesh).evaluate(owned_nodes(mesh), fields);
+        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+          for (unsigned int d = 0; d < dim; ++d)
+            before.v.component[d].local_element(node) = v[dim * node + d];
+      }
+    before.v.update_ghost_values();
+    return before;
+  }
+
+  template <int dim>
   void
-  Advection<dim>::advance_nodes(State<dim> &state, const double dt, const double reach) const
+  Advection<dim>::advance_nodes(State<dim> &state, const double reach) const
   {
     const Mesh<dim>              &mesh = *state.mesh;
-    const std::vector<Point<dim>> x(mesh.node_position.begin(),
-                                    mesh.node_position.begin() + mesh.n_owned_nodes());
-    const Tracer<dim>             tracer(*old.mesh);
-    const std::vector<Point<dim>> from = tracer.trace(x, surface_velocity, -dt);
-    const std::vector<double>     values = phi.values(from);
+    const std::vector<Point<dim>> from =
+      Tracer<dim>(*old.mesh).trace(owned_nodes(mesh), surface_velocity, -dt);
+    const std::vector<double> values = phi.values(from);
     std::copy(values.begin(), values.end(), state.phi.begin());
     state.phi.update_ghost_values();
     if (!old.material)
@@ -166,7 +182,7 @@ namespace treacle
 
   template <int dim>
   void
-  Advection<dim>::advance_faces(State<dim> &state, const double dt, const double reach) const
+  Advection<dim>::advance_faces(State<dim> &state, const double reach) const
   {
     const Mesh<dim>        &mesh = *state.mesh;
     std::vector<LocalIndex> faces;
@@ -179,14 +195,27 @@ namespace treacle
           faces.push_back(f);
           x.push_back(mesh.face_centre[f]);
         }
-    std::vector<const Vector *> components;
-    for (const Vector &component : old.v.component)
-      components.push_back(&component);
-    const std::vector<double> v =
-      carried(components, old.v, Tracer<dim>(*old.mesh).trace(x, old.v, -dt), dt, reach);
-    for (unsigned int i = 0; i < faces.size(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-        state.u.local_element(faces[i]) += mesh.face_normal[faces[i]][d] * v[dim * i + d];
+    const auto add = [&](const double                   weight,
+                         const NodeVector<dim>         &v,
+                         const std::vector<Point<dim>> &from,
+                         const double                   elapsed) {
+      std::vector<const Vector *> components;
+      for (const Vector &component : v.component)
+        components.push_back(&component);
+      const std::vector<double> values = carried(components, velocity, from, elapsed, reach);
+      for (unsigned int i = 0; i < faces.size(); ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          state.u.local_element(faces[i]) +=
+            weight * mesh.face_normal[faces[i]][d] * values[dim * i + d];
+    };
+    const Tracer<dim>             tracer(*old.mesh);
+    const std::vector<Point<dim>> from = tracer.trace(x, velocity, -dt);
+    add(difference.now, old.v, from, dt);
+    if (difference.before != 0)
+      add(difference.before,
+          old.before->v,
+          tracer.trace(from, combined(0.5, old.v, 0.5, old.before->v), -old.before->dt),
+          dt + old.before->dt);
     state.u.update_ghost_values();
   }
 

@@ -20,12 +20,6 @@ namespace treacle
                           "viscosity too, which follows slow flows much better, or viscosity and "
                           "pressure in one solve, with the mapping hybrid alone.",
                           Patterns::Selection("split|split with first projection|coupled"));
-    handler.add_parameter("Time scheme",
-                          time_scheme,
-                          "Of forces, viscosity and pressure: backward Euler, of first order, or "
-                          "SDIRK2, two such stages of 0.29 of the time step each, of second order "
-                          "(where they are coupled) and as stable.",
-                          Patterns::Selection("backward Euler|SDIRK2"));
     handler.leave_subsection();
     projection.add_parameters(handler);
     coupled.add_parameters(handler);
@@ -158,23 +152,7 @@ namespace treacle
       const auto section = timing.section("face fit");
       stage.fit          = std::make_unique<const FaceFit<dim>>(prm.face_fit, domain);
     }
-    if (prm.time_scheme == "backward Euler")
-      stage.advance(state, dt);
-    else
-      {
-        // Alexander, SIAM J. Numer. Anal. 14 (1977): the second stage starts where the
-        // first one, of part gamma, points to
-        const double gamma = 1 - std::sqrt(0.5), start = (1 - gamma) / gamma;
-        const Vector u = state.u;
-        stage.advance(state, gamma * dt);
-        stage.reactions.scale(start);
-        for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
-          if (domain.is_liquid_face(f))
-            state.u.local_element(f) =
-              u.local_element(f) + start * (state.u.local_element(f) - u.local_element(f));
-        state.u.update_ghost_values();
-        stage.advance(state, gamma * dt);
-      }
+    stage.advance(state, dt);
     stage.info.loads              = stage.reactions.loads(dt);
     stage.info.maximum_divergence = Projection<dim>::maximum_divergence(state, domain);
     const auto section            = timing.section("reconstruction");

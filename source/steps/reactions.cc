@@ -160,17 +160,6 @@ namespace treacle
   }
 
   template <int dim>
-  void
-  Reactions<dim>::scale(const double factor)
-  {
-    for (Load<dim> &sum : sums)
-      {
-        sum.force *= factor;
-        sum.torque *= factor;
-      }
-  }
-
-  template <int dim>
   std::vector<Load<dim>>
   Reactions<dim>::loads(const double dt) const
   {

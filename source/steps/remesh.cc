@@ -158,7 +158,7 @@ namespace treacle
       return state.mesh;
     const Octree<dim>            &octree = mesh.octree();
     std::vector<Point<dim>> moved =
-      advection.move_surface(sample_points(extract_surface(mesh, state.phi)), dt);
+      advection.move_surface(sample_points(extract_surface(mesh, state.phi)));
     for (const Marker<dim> &marker : markers)
       moved.push_back(marker.position);
     if (Band<dim>(octree, moved, 1).is_finest_in(octree))
@@ -171,7 +171,7 @@ namespace treacle
         return near_surface(band, octree.parameters(), scene, state.time + dt, leaves);
       },
       [&](const std::vector<Point<dim>> &x) {
-        std::vector<double> phi = advection.level_set(x, dt);
+        std::vector<double> phi = advection.level_set(x);
         for (unsigned int i = 0; i < x.size(); ++i)
           phi[i] = std::min(phi[i], scene.emitter_distance(x[i], state.time + dt));
         return phi;

@@ -22,6 +22,12 @@ namespace treacle
                       maximum,
                       "Largest size of a step (s).",
                       Patterns::Double(1e-12));
+    prm.add_parameter("Time scheme",
+                      scheme,
+                      "BDF2 is of second order: the derivative of the velocity along paths takes "
+                      "in the step before, and the surface moves with the velocity of the step's middle. "
+                      "backward Euler is of first order, and forgets at once.",
+                      Patterns::Selection("BDF2|backward Euler"));
   }
 
   template <int dim>

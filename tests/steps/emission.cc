@@ -91,9 +91,9 @@ carry(const MPI_Comm &comm, const unsigned int level)
         }
       state->v.update_ghost_values();
       const LiquidDomain<dim> domain(*state, scene, 0.01);
-      const Advection<dim>    advection(prm.advection, *state, domain);
+      const Advection<dim>    advection(prm.advection, *state, domain, 0.02);
       const auto mesh = mesh_for_next_surface(*state, scene, advection, {}, 0.02);
-      auto next = std::make_unique<State<dim>>(advection.advance(mesh, 0.02, 0.3));
+      auto next = std::make_unique<State<dim>>(advection.advance(mesh, 0.3));
       extend_material(*next, 6);
       state = std::move(next);
     }

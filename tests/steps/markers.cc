@@ -113,11 +113,11 @@ carry(const MPI_Comm                                  &comm,
         state->v.set(node, test.velocity(state->mesh->node_position[node], state->time + 0.5 * dt));
       state->v.update_ghost_values();
       const LiquidDomain<dim> domain(*state, scene, 0.01);
-      const Advection<dim>    advection(prm.advection, *state, domain);
-      const auto              markers = advection.move_markers(dt);
+      const Advection<dim>    advection(prm.advection, *state, domain, dt);
+      const auto              markers = advection.move_markers();
       const auto              mesh    = mesh_for_next_surface(*state, scene, advection, markers, dt);
       errors.rebuilt += mesh != state->mesh;
-      State<dim> next = advection.advance(mesh, dt, reach);
+      State<dim> next = advection.advance(mesh, reach);
       next.markers    = to_owners(*mesh, markers);
       tracking.advance(next, scene, reach, volume);
       state = std::make_unique<State<dim>>(std::move(next));

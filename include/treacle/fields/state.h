@@ -33,6 +33,23 @@ namespace treacle
 
 
 
+  /// The velocity of the step before, on the mesh of now.
+  template <int dim>
+  struct VelocityBefore
+  {
+    double          dt; ///< since then (s)
+    NodeVector<dim> v;  ///< at nodes, where liquid is advected (m/s)
+    Vector          u;  ///< at faces, where it is not (m/s)
+
+    VelocityBefore(const Mesh<dim> &mesh, const double dt)
+      : dt(dt)
+      , v(mesh.nodes)
+      , u(mesh.faces)
+    {}
+  };
+
+
+
   /// All that evolves. Every step leaves the ghosts of what it changed up to date.
   template <int dim>
   struct State
@@ -56,7 +73,8 @@ namespace treacle
     NodeVector<dim>   v;        ///< node velocity, for tracing and output (m/s)
     Vector            pressure; ///< at dual centres, of the last projection (Pa)
 
-    std::optional<CarriedMaterial> material; ///< if it is advected
+    std::optional<CarriedMaterial>     material; ///< if it is advected
+    std::optional<VelocityBefore<dim>> before;   ///< if the time scheme needs it
     /// Each on the rank that owns the cell it lies in (of a lattice: the leaf); none without marker level set.
     std::vector<Marker<dim>> markers;
   };

@@ -5,6 +5,7 @@
 #define treacle_steps_advection_h
 
 #include <treacle/fields/liquid_domain.h>
+#include <treacle/steps/backward_difference.h>
 #include <treacle/steps/smooth_level_set.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -27,26 +28,32 @@ namespace treacle
       add_parameters(ParameterHandler &prm);
     };
 
+    /// By a step of size dt.
     Advection(const Parameters        &parameters,
               const State<dim>        &old,
-              const LiquidDomain<dim> &domain);
+              const LiquidDomain<dim> &domain,
+              const double             dt);
 
     /// The state at old.time + dt: phi, carried material, and u within @p reach (m)
-    /// of the liquid.
+    /// of the liquid, which is what the backward difference starts from.
     State<dim>
-    advance(std::shared_ptr<const Mesh<dim>> mesh, const double dt, const double reach) const;
+    advance(std::shared_ptr<const Mesh<dim>> mesh, const double reach) const;
+
+    /// The old velocity at the nodes of the new mesh, for the next backward difference.
+    VelocityBefore<dim>
+    velocity_before(const Mesh<dim> &mesh) const;
 
     /// Where points of the surface are after dt.
     std::vector<Point<dim>>
-    move_surface(const std::vector<Point<dim>> &x, const double dt) const;
+    move_surface(const std::vector<Point<dim>> &x) const;
 
     /// The markers after dt, still on the ranks they came from.
     std::vector<Marker<dim>>
-    move_markers(const double dt) const;
+    move_markers() const;
 
     /// phi at points of the new time.
     std::vector<double>
-    level_set(const std::vector<Point<dim>> &x, const double dt) const;
+    level_set(const std::vector<Point<dim>> &x) const;
 
   private:
     /// Values of old node fields, by the scheme, at points from which @p velocity
@@ -59,18 +66,19 @@ namespace treacle
             const double                       reach) const;
 
     void
-    advance_nodes(State<dim> &state, const double dt, const double reach) const;
+    advance_nodes(State<dim> &state, const double reach) const;
 
     void
-    advance_faces(State<dim> &state, const double dt, const double reach) const;
+    advance_faces(State<dim> &state, const double reach) const;
 
-    const Parameters  prm;
-    const State<dim> &old;
-    /// What moves the surface: the node velocity, but at walls and in solids that
-    /// of the nodes beside them. With the wall's own velocity a film of air
-    /// would remain under all that falls on it, for a P1 velocity vanishes there.
-    NodeVector<dim>     surface_velocity;
-    SmoothLevelSet<dim> phi;
+    const Parameters         prm;
+    const State<dim>        &old;
+    const double             dt;
+    const BackwardDifference difference;
+    /// At nodes, in the middle of the step if the velocity before is known.
+    const NodeVector<dim> velocity;
+    const NodeVector<dim>     surface_velocity; ///< what moves the surface, and material
+    const SmoothLevelSet<dim> phi;
   };
 } // namespace treacle
 

@@ -21,8 +21,7 @@ namespace treacle
   public:
     struct Parameters
     {
-      std::string                              coupling    = "coupled";
-      std::string                              time_scheme = "backward Euler";
+      std::string                              coupling = "coupled";
       typename Viscosity<dim>::Parameters      viscosity;
       typename Projection<dim>::Parameters     projection;
       typename Coupled<dim>::Parameters        coupled;
@@ -46,7 +45,7 @@ namespace treacle
       std::vector<Load<dim>> loads; ///< on solids and walls, mean over the step
     };
 
-    /// state.u, v and pressure after a step of size dt that ends at state.time. The velocity
+    /// state.u, v and pressure at state.time, the end of a step; dt is that of its backward difference. The velocity
     /// is known up to @p reach from the surface (m).
     Info
     advance(State<dim>              &state,
@@ -67,7 +66,7 @@ namespace treacle
     liquid_domain(const State<dim> &state, const Scene<dim> &scene) const;
 
   private:
-    /// A backward Euler step.
+    /// A step of the backward difference.
     struct Stage;
 
     const Parameters          prm;

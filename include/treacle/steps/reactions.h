@@ -50,10 +50,6 @@ namespace treacle
     void
     add_pressure(const Vector &pressure, const double dt);
 
-    /// Of all that was added so far.
-    void
-    scale(const double factor);
-
     /// Of the liquid on each body, mean over dt; torques about the solid's centre of rotation,
     /// of walls about the middle of the box. Collective.
     std::vector<Load<dim>>

@@ -22,6 +22,8 @@ namespace treacle
       double cfl            = 3;
       double maximum        = 0.04;
 
+      std::string scheme = "BDF2";
+
       void
       add_parameters(ParameterHandler &prm);
     };
@@ -37,6 +39,13 @@ namespace treacle
     /// How far from the surface velocity and distance must be known for a step (m).
     double
     reach(const Mesh<dim> &mesh) const;
+
+    /// The velocity of the step before is part of the state then.
+    bool
+    is_second_order() const
+    {
+      return prm.scheme == "BDF2";
+    }
 
     double
     frame_time(const unsigned int frame) const
