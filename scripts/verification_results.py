@@ -42,10 +42,14 @@ def load():
     return {name: stored[name] for name in CASES if name in stored}
 
 
+def one_line(numbers):
+    return "[" + " ".join(numbers[0][1:-1].split()) + "]"
+
+
 def store(name, result):
     """In place of what is kept of this case; a kill loses nothing."""
     text = json.dumps({**load(), name: result}, indent=1, sort_keys=True)
-    text = re.sub(r"\[[^][{}]*\]", lambda numbers: " ".join(numbers[0].split()), text)  # in one line
+    text = re.sub(r"\[[^][{}]*\]", one_line, text)
     FILE.parent.mkdir(exist_ok=True)
     temporary = FILE.with_suffix(".tmp")
     temporary.write_text(text + "\n")
@@ -72,6 +76,10 @@ class Row:
         """The error on the finest mesh, in tolerances."""
         return abs(self.errors[-1]) / self.tolerance if self.errors[-1] is not None else math.inf
 
+    @property
+    def held_to(self):
+        return format_error(self.tolerance, self.is_absolute).lstrip("+") if self.is_target else ""
+
     def verdict(self):
         if not self.is_target:
             return ""
@@ -79,7 +87,7 @@ class Row:
         if error is None:
             return "not reached: no number"
         if abs(error) > self.tolerance:
-            return f"not reached: {format_error(self.tolerance, self.is_absolute).lstrip('+')} wanted"
+            return "not reached"
         if self.required_order is None or abs(error) <= NEGLIGIBLE:
             return "reached"
         if len(self.errors) == 1:
@@ -89,13 +97,17 @@ class Row:
 
 
 def rows(name, result):
-    """Of a result or a study in time: those quantities that the case still has."""
-    case = CASES[name]
+    """Of a result or a study in time: those quantities that the case still has, in its order;
+    what is for comparison comes last."""
+    case, found = CASES[name], []
     for key, errors in result.get("errors", {}).items():
         mapping, _, quantity = key.rpartition(": ") if isinstance(case, Program) else ("", "", key)
         if quantity in case.quantities:
-            yield Row(name, key, errors, case.target(quantity), case.order,
-                      case.is_absolute(quantity), mapping in ("", DEFAULT_MAPPING))
+            is_target = mapping in ("", DEFAULT_MAPPING)
+            found.append(((not is_target, mapping, case.quantities.index(quantity)),
+                          Row(name, key, errors, case.target(quantity), case.order,
+                              case.is_absolute(quantity), is_target)))
+    return [row for _, row in sorted(found, key=lambda pair: pair[0])]
 
 
 def order(a, b, n=1):
