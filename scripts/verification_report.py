@@ -87,7 +87,7 @@ def table_of_case(name, result):
             f"{(result.get('seconds') or [math.nan])[-1]:.3g}"]
     wrong = ["failed"] if "failed" in result else list(limits_exceeded(result))
     for row in filter(lambda row: row.is_target, rows(name, result)):
-        verdict = "; ".join(([] if "failed" in result else [row.verdict()]) + wrong)
+        verdict = "; ".join([*([] if "failed" in result else [row.verdict()]), *wrong])
         yield line(*first, row.quantity, errors_text(row), orders_text(row), row.held_to, *ends, verdict)
         first, ends, wrong = ["", ""], ["", "", ""], ["failed"] if "failed" in result else []
     if first[0]:
