@@ -49,12 +49,23 @@ class Results:
     def energy_gain(self):
         """The largest rise of the total energy above what it was before, over the
         largest kinetic energy plus the range of the potential one; 0 where the surface
-        is kept, for then gravity goes on working."""
+        is kept, for then gravity goes on working, and where nothing moves."""
         if self.parameters.get("Steps/Surface") == "false":
             return 0.
         energy, potential = self.energy(), self["Potential energy (J)"]
         rise = numpy.max(energy - numpy.minimum.accumulate(energy))
-        return rise / (numpy.max(self["Kinetic energy (J)"]) + numpy.ptp(potential))
+        scale = numpy.max(self["Kinetic energy (J)"]) + numpy.ptp(potential)
+        return rise / scale if scale > 1e-10 * numpy.max(abs(energy)) else 0.
+
+    def leaf_size(self, level):
+        """The edge (m) of a leaf."""
+        lower, upper = (numpy.array([float(x) for x in self.parameters[f"Domain/{which} corner"].split(",")])
+                        for which in ("Lower", "Upper"))
+        return numpy.min(upper - lower) / (int(self.parameters["Mesh/Root cells"]) * 2 ** level)
+
+    def fallbacks(self):
+        """Coupled solves that were taken by the split."""
+        return int(numpy.sum(self["Fallbacks"]))
 
     def volume_drift(self):
         """Where it is largest in size."""
