@@ -4,7 +4,7 @@
 
 from dataclasses import dataclass, field
 
-SDIRK2 = {"Viscosity/Time scheme": "SDIRK2"}
+EULER = {"Time scheme": "backward Euler"}
 
 
 @dataclass

@@ -7,10 +7,11 @@ from math import pi, sqrt
 
 import numpy
 
-from cases import SDIRK2, Case, Program
-from measures import at, front, height, interpolated, last, surface_rate, wave
+from cases import EULER, Case, Program
+from measures import (at, coil_radius, front, height, interpolated, last, surface_rate, turning,
+                      wave)
 
-LEFT, RIGHT, TOP = (f"Liquid {what} (m)" for what in ("minimum x", "maximum x", "maximum y"))
+RIGHT = "Liquid maximum x (m)"
 SHALLOW = {"Domain/Upper corner": "1, 1", "Mesh/Root cells": "2",
            "Liquid 1/Expression": "y - 0.5 - 0.005 * cos(pi * x)"}
 SHORT = {"Domain/Upper corner": "0.5, 1", "Mesh/Root cells": "1", "Material/Viscosity": "0.1",
@@ -19,6 +20,7 @@ SHORT = {"Domain/Upper corner": "0.5, 1", "Mesh/Root cells": "1", "Material/Visc
 STILL = {"Mesh/Interior level": 2, "Mesh/Air level": 2}
 GRADED = {"Mesh/Interior level": 3, "Mesh/Air level": 2}
 COARSE_AIR = {"Mesh/Air level": 0}
+ROPE = {"Mesh/Interior level": 3, "Mesh/Air level": 1}
 THIN = {"Material/Viscosity": "0.005", "End time": "8"}
 
 
@@ -71,8 +73,11 @@ WAVE = wave_case(1, 6, 0.575442182, 1.47245435)
 THIN_WAVE = wave_case(1, 8, 0.0879152071, 1.75697276)
 DROP = {f"{name}, t = {t}": (half_axis(axis, t), exact[i]) for t, *exact in AXES
         for i, (name, axis) in enumerate((("minor", "x"), ("major", "y")))}
-COLUMN = {f"h, T = {t / 40}": (at(TOP, t), exact)
-          for t, exact in ((20, 0.810930216), (40, 0.693147181), (80, 0.549306144))}
+COLUMN, COLUMN_3D = ({f"h, T = {t / 40}": (at(f"Liquid maximum {axis} (m)", t), exact)
+                      for t, exact in ((20, 0.810930216), (40, 0.693147181), (80, 0.549306144))}
+                     for axis in "yz")
+COIL = {"frequency": (turning((0.377, 0.374), 0.6, 2.5, 4.9), 4),
+        "radius": (coil_radius(0.05, 4.9), 0.25)}
 FILM = {"u at the surface": (last("Probe 4 velocity x (m/s)"), 0.5), "flux": (flux, 1 / 3)}
 CURRENT = {"front, T = 30": (at(RIGHT, 270), 2.7909), "h(0)": (height(270), 0.4258)}
 SLUMP_SLIP = {f"{name}, t = {t}": (measure(t), exact[i]) for t, *exact in SLIP
@@ -105,14 +110,15 @@ FREE_SURFACE_CASES = {
                                in_time=({},)),
     "C3 k pi, h 0.5, nu 1": case("relaxation", 2, 0.1,
                                  {"rate": (surface_rate(pi, 1), 0.076507535)}, SHALLOW,
-                                 in_time=({}, SDIRK2)),
+                                 in_time=({}, EULER)),
     "C3 k 2 pi, h 0.5, nu 0.1": case("relaxation", 2, 0.05,
                                      {"rate": (surface_rate(2 * pi, 0.5), 0.828245658)}, SHORT,
                                      in_time=({},)),
-    "C4 nu 0.05": case("wave", 2, 0.1, WAVE, in_time=({}, SDIRK2)),
+    "C4 nu 0.05": case("wave", 2, 0.1, WAVE, in_time=({}, EULER)),
     "C4 nu 0.005": case("wave", 2, 0.1, THIN_WAVE, THIN, in_time=({},)),
     "C5": case("stretched_drop", 2, 0.04, DROP, in_time=({},)),
     "C7": case("sagging_column", 3, 1, COLUMN, in_time=({},)),
+    "C7 3D": case("sagging_column_3d", 3, 1, COLUMN_3D, n_levels=2),
     "C8": case("film", 1, 0.1, FILM),
     "C9": case("gravity_current", 1, 2, CURRENT, tolerance=0.05),  # lubrication: thin, not that thin
     "C9b": case("slump_slip", 1, 0.2, SLUMP_SLIP, in_time=({},)),
@@ -120,6 +126,7 @@ FREE_SURFACE_CASES = {
     "C9d": case("drop_impact", 2, 0.04, widths(IMPACT)),
     "C9d 3D": case("drop_impact_3d", 2, 0.04, widths(IMPACT_3D), COARSE_AIR, n_levels=2),
     "C9e": case("dam_break", 2, 0.04, DAM_FRONT, tolerance=0.1),  # as the measurement
+    "C11": case("coil_viscous", 4, 0.04, COIL, ROPE, 0.15, order=None, n_levels=1),
     "C10 notched disc": carried("notched", 2, 5, 3),
     "C10 disc in a vortex": carried("vortex", 2, 5, 3),
     "C10 sphere in a vortex": carried("vortex", 3, 4, 2),

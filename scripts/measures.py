@@ -156,3 +156,40 @@ def front(time, y=0):
         points = results.points(time)
         return numpy.max(points[abs(points[:, 1] - y) < 1e-6, 0])
     return value
+
+
+def middle_of_slice(surface, z):
+    """Of the curve in which a plane cuts a surface in space (x, y)."""
+    corners = surface.points[surface.facets]
+    above = corners[:, :, 2] >= z
+    corners, above = (a[above.any(axis=1) != above.all(axis=1)] for a in (corners, above))
+    weights, middles = [], []
+    for i in range(3):  # the corner alone on its side of the plane
+        alone = (above[:, i] != above[:, i - 1]) & (above[:, i] != above[:, i - 2])
+        a, b, c = (corners[alone][:, i - k] for k in range(3))
+        ends = [a + ((z - a[:, 2]) / (other[:, 2] - a[:, 2]))[:, None] * (other - a) for other in (b, c)]
+        weights.append(numpy.linalg.norm(ends[1] - ends[0], axis=1))
+        middles.append((ends[0] + ends[1])[:, :2] / 2)
+    weights, middles = numpy.concatenate(weights), numpy.concatenate(middles)
+    return weights @ middles / numpy.sum(weights)
+
+
+def turning(axis, z, start, end=math.inf):
+    """The angular frequency at which the rope that passes the height z goes round a vertical axis."""
+    def value(results):
+        frames = [frame for frame in results.run.frames
+                  if start - 1e-9 <= results.run.time(frame) <= end + 1e-9]
+        arms = numpy.array([middle_of_slice(results.run.surface(frame), z) for frame in frames]) - axis
+        angles = numpy.unwrap(numpy.arctan2(arms[:, 1], arms[:, 0]))
+        times = [results.run.time(frame) for frame in frames]
+        return abs(numpy.polyfit(times, angles, 1)[0])
+    return value
+
+
+def coil_radius(rope, time):
+    """From the axis of the coil to that of the rope: half the mean extent of the liquid less the rope's radius."""
+    def value(results):
+        extents = [interpolated(f"Liquid maximum {axis} (m)", time)(results) -
+                   interpolated(f"Liquid minimum {axis} (m)", time)(results) for axis in "xy"]
+        return numpy.mean(extents) / 2 - rope
+    return value

@@ -70,6 +70,10 @@ CASES = [
     ("emitter that starts while the surface stays", {
         "Steps/Surface": "false", "Emitter 1/Radius": "0.1", "Emitter 1/Start time": "0.01"},
      r"Emitter 1/Start time.*Steps/Surface"),
+    ("emitter in a full container", {
+        "Liquid 1/Shape": "half space", "Liquid 1/Centre": "0, 10", "Liquid 1/Normal": "0, 1",
+        "Emitter 1/Radius": "0.1", "Emitter 1/Centre": "0.5, 1", "Emitter 1/Velocity": "0; -1"},
+     r"Emitter: it pours .* full of liquid.*Stop time"),
     ("mesh without a file", {"Mesh/Type": "file"}, r"Mesh/File.*needs the name"),
     ("missing mesh", {"Mesh/Type": "file", "Mesh/File": "nowhere.msh"}, r"nowhere\.msh.*cannot be opened"),
     ("mesh that is none", {"Mesh/Type": "file", "Mesh/File": "open.off"}, r"no mesh of triangles.*open\.off"),

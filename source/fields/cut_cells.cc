@@ -73,6 +73,7 @@ namespace treacle
             volume[c] += part.fraction;
             all.push_back(part);
           }
+        Assert(all.size() > start.back(), ExcMessage("A cut cell without an open part."));
         for (unsigned int k = start.back(); k < all.size(); ++k)
           all[k].fraction /= volume[c];
       }

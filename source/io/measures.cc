@@ -69,13 +69,20 @@ namespace treacle
               sums.first_moment[d] += mass * (x[d] - origin[d]);
             sums.potential_energy -= mass * (g * (x - domain.scene.lower_corner()));
 
+            const auto add_dissipation = [&](const double part, const Tensor<2, dim> &gradient) {
+              const SymmetricTensor<2, dim> strain_rate = symmetrize(gradient);
+              sums.dissipation += 2 * domain.viscosity[c] * part * volume * strain_rate * strain_rate;
+            };
+            const auto parts = domain.cut_cells.parts(c);
+            for (const auto &part : parts)
+              add_dissipation(part.fraction, part.velocity_gradient(mesh.cell_nodes[c], state.v));
+            if (parts.size() > 0)
+              continue;
             Tensor<2, dim> gradient;
             for (unsigned int i = 0; i <= dim; ++i)
               gradient += outer_product(state.v.value(mesh.cell_nodes[c][i]),
                                         mesh.cell_gradients[c][i]);
-            const SymmetricTensor<2, dim> strain_rate = symmetrize(gradient);
-            sums.dissipation +=
-              2 * domain.viscosity[c] * volume * strain_rate * strain_rate;
+            add_dissipation(1, gradient);
           }
     }
 

@@ -146,14 +146,8 @@ namespace treacle
               restored[2] = column(emitted_name<dim>());
               kept += line + '\n';
             }
-        const auto n_probes = std::count_if(names.begin(), names.end(), [](const std::string &name) {
-          return name.rfind("Probe ", 0) == 0 && name.find(" pressure") != std::string::npos;
-        });
-        if (!kept.empty() && n_probes != probes.size())
-          error = "The run cannot be resumed: it had " + std::to_string(n_probes) +
-                  " probes, and now there are " + std::to_string(probes.size()) +
-                  "; let the subsections Probe be as they were.";
-        else if (kept.empty())
+        columns = names;
+        if (kept.empty())
           error = "The run cannot be resumed: the table \"" + path +
                   "\" has no row before step " + std::to_string(step) + ".";
         else
@@ -234,6 +228,19 @@ namespace treacle
   Statistics<dim>::append()
   {
     std::string error;
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      {
+        const auto [old, now] = std::mismatch(
+          columns.begin(), columns.end(), row.begin(), row.end(), [](const auto &name, const Entry &entry) {
+            return name == entry.name;
+          });
+        if (!columns.empty() && (old != columns.end() || now != row.end()))
+          error = "The run cannot be resumed: of the columns of \"" + path + "\" and of this run only one has \"" +
+                  (old != columns.end() ? *old : now->name) +
+                  "\"; let the subsections Solid and Probe be as they were.";
+      }
+    throw_first(comm, error);
+    columns.clear();
     if (Utilities::MPI::this_mpi_process(comm) == 0)
       {
         std::ofstream file(path, has_file ? std::ios::app : std::ios::trunc);

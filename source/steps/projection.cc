@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/exceptions.h>
+#include <treacle/base/log.h>
 #include <treacle/steps/pieces.h>
 #include <treacle/steps/projection.h>
 
@@ -72,7 +74,39 @@ namespace treacle
           pinned.push_back(i);
       }
     for (Pocket &pocket : pockets)
-      pocket.size = Utilities::MPI::sum<GlobalIndex>(pocket.rows.size(), mesh.communicator());
+      {
+        pocket.size = Utilities::MPI::sum<GlobalIndex>(pocket.rows.size(), mesh.communicator());
+        if (!domain.scene.emitters().empty())
+          check_room(pocket);
+      }
+  }
+
+  template <int dim>
+  void
+  Projection<dim>::check_room(const Pocket &pocket) const
+  {
+    const Mesh<dim>      &mesh = domain.mesh;
+    std::array<double, 2> poured{}; // net, gross (m^dim/s)
+    for (const unsigned int i : pocket.rows)
+      for (const LocalIndex f : mesh.cell_faces[owned_cells[i]])
+        if (std::any_of(mesh.face_nodes[f].begin(), mesh.face_nodes[f].end(), [&](const auto node) {
+              return domain.is_emitter_node[node];
+            }))
+          {
+            const double sign = mesh.face_cells[f][0] == owned_cells[i] ? -1 : 1;
+            const double flux = sign * mesh.face_area[f] * (1 - domain.open_fraction[f]) *
+                                domain.solid_velocity[f];
+            poured[0] += flux;
+            poured[1] += std::abs(flux);
+          }
+    Utilities::MPI::sum(ArrayView<const double>(poured.data(), 2),
+                        mesh.communicator(),
+                        ArrayView<double>(poured.data(), 2));
+    // not what a few cells between an emitter and a wall see, nor an emitter that stirs
+    require(2 * pocket.size <= rows.size() || std::abs(poured[0]) <= 0.5 * poured[1],
+            "Emitter: it pours " + digits(poured[0]) + (dim == 2 ? " m^2/s" : " m^3/s") +
+              " into a closed container that is full of liquid; there is no room: leave air above the "
+              "liquid, or set an earlier Stop time.");
   }
 
   template <int dim>

@@ -91,12 +91,7 @@ namespace treacle
     });
     for (const auto &part : domain.cut_cells.parts(c))
       {
-        Tensor<2, dim> grad;
-        for (unsigned int k = 0; k <= dim; ++k)
-          grad += outer_product(part.vertex[k] == CutCells<dim>::on_wall ? part.velocity[k] :
-                                                                           v.value(nodes[part.vertex[k]]),
-                                part.gradient[k]);
-        const Tensor<2, dim> sigma = stress<dim>(stiffness, c, grad);
+        const Tensor<2, dim> sigma = stress<dim>(stiffness, c, part.velocity_gradient(nodes, v));
         for (unsigned int k = 0; k <= dim; ++k)
           if (part.vertex[k] != CutCells<dim>::on_wall)
             {

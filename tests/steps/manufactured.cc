@@ -216,8 +216,8 @@ namespace
   void
   check(const MPI_Comm &comm, const std::vector<unsigned int> &levels)
   {
-    for (const std::string mapping : {"nodes alone", "face fitted FLIP", "face fitted PIC",
-                                      "face coupled", "node FLIP", "node PIC"})
+    for (const std::string mapping : {"nodes alone", "hybrid", "face fitted FLIP",
+                                      "face fitted PIC", "face coupled", "node FLIP", "node PIC"})
       for (const unsigned int level : levels)
         {
           const bool nodes = mapping == "nodes alone";

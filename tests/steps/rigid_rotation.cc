@@ -3,7 +3,7 @@
 
 // A free disc and sphere that rotate and move as a rigid body, viscosity 1e3
 // (case A1): what the viscous step alone takes from momentum and energy, with
-// each mapping. Only the face-fitted ones must take nothing. Arguments: dimension, levels,
+// each mapping. Only hybrid and the face-fitted ones must take nothing. Arguments: dimension, levels,
 // settings; then the losses are relative, of angular momentum, kinetic energy and linear
 // momentum. "Liquid 1/Shape=triangle mesh" and so on make another body.
 
@@ -29,8 +29,8 @@ namespace
     return lost_by_viscosity(body);
   }
 
-  constexpr std::array<const char *, 5> mappings = {
-    {"face fitted FLIP", "face fitted PIC", "face coupled", "node FLIP", "node PIC"}};
+  constexpr std::array<const char *, 6> mappings = {
+    {"hybrid", "face fitted FLIP", "face fitted PIC", "face coupled", "node FLIP", "node PIC"}};
 
   template <int dim>
   void

@@ -64,7 +64,7 @@ namespace
   check(const MPI_Comm &comm, const std::vector<unsigned int> &levels)
   {
     for (const char *mapping :
-         {"face coupled", "face fitted FLIP", "face fitted PIC", "node FLIP", "node PIC"})
+         {"hybrid", "face coupled", "face fitted FLIP", "face fitted PIC", "node FLIP", "node PIC"})
       for (const unsigned int level : levels)
         {
           const double kept = decay_rate(comm, mapping, "full", 0, level);

@@ -87,7 +87,7 @@ namespace
   check_all(const MPI_Comm &comm, const std::vector<unsigned int> &levels)
   {
     for (const char *mapping :
-         {"face coupled", "face fitted FLIP", "face fitted PIC", "node FLIP", "node PIC"})
+         {"hybrid", "face coupled", "face fitted FLIP", "face fitted PIC", "node FLIP", "node PIC"})
       for (const unsigned int level : levels)
         check<dim>(comm, mapping, level);
   }

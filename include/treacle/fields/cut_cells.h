@@ -18,15 +18,26 @@ namespace treacle
   class CutCells
   {
   public:
+    static constexpr unsigned char on_wall = dim + 1;
+
     struct Part
     {
       double                                  fraction; ///< of the open part's volume
       std::array<Tensor<1, dim>, dim + 1>     gradient; ///< of the P1 functions (1/m)
       std::array<unsigned char, dim + 1>      vertex;   ///< of the cell; on_wall
       std::array<Tensor<1, dim>, dim + 1>     velocity; ///< of points of the wall (m/s)
-    };
 
-    static constexpr unsigned char on_wall = dim + 1;
+      /// Of the node velocity v and that of the wall; @p nodes are the cell's.
+      template <typename Nodes>
+      Tensor<2, dim>
+      velocity_gradient(const Nodes &nodes, const NodeVector<dim> &v) const
+      {
+        Tensor<2, dim> result;
+        for (unsigned int k = 0; k <= dim; ++k)
+          result += outer_product(vertex[k] == on_wall ? velocity[k] : v.value(nodes[vertex[k]]), gradient[k]);
+        return result;
+      }
+    };
 
     /// No cell is cut.
     CutCells() = default;

@@ -42,7 +42,7 @@ namespace treacle
                const Probes<dim> &probes = Probes<dim>());
 
     /// Continue the old table behind the row of this step. Throws a UserError
-    /// on all ranks if there is no such table, or one with other probes. Collective.
+    /// on all ranks if there is no such table; add_row if it has other columns. Collective.
     void
     resume(const unsigned int step);
 
@@ -69,6 +69,7 @@ namespace treacle
     double             emitted      = 0; ///< since the start (m^dim)
     unsigned int       n_rebuilds   = 0;
     std::vector<Entry> row;
+    std::vector<std::string> columns; ///< of a table that is continued, until the first row (rank 0)
   };
 } // namespace treacle
 

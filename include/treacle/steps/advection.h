@@ -76,7 +76,7 @@ namespace treacle
     const double             dt;
     const BackwardDifference difference;
     /// At nodes, in the middle of the step if the velocity before is known.
-    const NodeVector<dim> velocity;
+    const NodeVector<dim>     velocity;
     const NodeVector<dim>     surface_velocity; ///< what moves the surface, and material
     const SmoothLevelSet<dim> phi;
   };

@@ -126,12 +126,24 @@ namespace treacle
     maximum_divergence(const State<dim> &state, const LiquidDomain<dim> &domain);
 
   private:
+    /// Pockets without a free surface: the pressure cells of this rank in each,
+    /// and how many there are on all ranks. One cell of each is pinned.
+    struct Pocket
+    {
+      std::vector<unsigned int> rows;
+      GlobalIndex               size = 0;
+    };
+
     /// Take its weighted mean off dt p of each closed pocket; one weight a row.
     void
     take_off_mean(Vector &q, const std::vector<double> &weight) const;
 
     void
     find_closed_pockets();
+
+    /// Throws a UserError where an emitter pours into a full container.
+    void
+    check_room(const Pocket &pocket) const;
 
     void
     assemble();
@@ -143,15 +155,8 @@ namespace treacle
     const std::vector<LocalIndex>  &owned_cells;
     const std::vector<GlobalIndex> &number;
     const IndexSet                 &rows;
-    /// Pockets without a free surface: the pressure cells of this rank in each,
-    /// and how many there are on all ranks. One cell of each is pinned.
-    struct Pocket
-    {
-      std::vector<unsigned int> rows;
-      GlobalIndex               size = 0;
-    };
-    std::vector<Pocket>            pockets;
-    std::vector<unsigned int>      pinned; ///< rows of this rank
+    std::vector<Pocket>             pockets;
+    std::vector<unsigned int>       pinned; ///< rows of this rank
     std::unique_ptr<TrilinosWrappers::SparseMatrix> matrix;
     std::unique_ptr<LinearSolver>                   solver;
   };
