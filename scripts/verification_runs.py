@@ -15,6 +15,7 @@ from measures import Results
 from verification_results import ROOT
 
 BUILD = ROOT / "build/release"
+ERROR = "treacle: error: "
 ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1"}
 stopped = threading.Event()  # by Ctrl-C: then nothing more is run or kept
 
@@ -36,8 +37,8 @@ def execute(line, **options):
         raise Failed(signal.strsignal(-done.returncode))
     if done.returncode > 0:
         said = [text for text in done.stderr.splitlines() if text.strip(" -*")]
-        raise Failed(said[-1].removeprefix("treacle: error: ") if said
-                     else f"exit code {done.returncode}")
+        own = [text.removeprefix(ERROR) for text in said if text.startswith(ERROR)]
+        raise Failed([f"exit code {done.returncode}", *said[-1:], *own[:1]][-1])
     return done.stdout
 
 

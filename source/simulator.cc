@@ -183,14 +183,15 @@ namespace treacle
               std::to_string(frame) + " is at t = " + digits(state->time) + " s.");
     require(state->material.has_value() == scene.has_advected_material(),
             "Material/Transport: it must be the one of the run that is resumed.");
-    if (!time_step.is_second_order())
+    if (state->before &&
+        (!time_step.is_second_order() || state->before->v.has_value() != prm.steps.advection))
       state->before.reset();
     volume                  = progress.scalars.at("volume");
     reach                   = time_step.reach(*state->mesh);
     domain = dynamics.liquid_domain(*state, scene);
     log        = std::make_unique<Log>(comm, prm.output_directory, true);
     statistics = std::make_unique<Statistics<dim>>(comm, prm.output_directory, probes);
-    statistics->resume(state->step);
+    statistics->resume(*state, *domain);
     write_parameters();
     log->line("resumed at t = " + digits(state->time) + " s, frame " +
               std::to_string(frame));
@@ -302,7 +303,7 @@ namespace treacle
     State<dim> next = [&] {
       const auto section = timing.section("advection");
       State<dim> state = advection.advance(mesh, reach);
-      if (time_step.is_second_order())
+      if (remembers())
         state.before = advection.velocity_before(*mesh);
       return state;
     }();
@@ -324,6 +325,13 @@ namespace treacle
   }
 
   template <int dim>
+  bool
+  Simulator<dim>::remembers() const
+  {
+    return time_step.is_second_order() && !scene.has_switch_at(state->time);
+  }
+
+  template <int dim>
   void
   Simulator<dim>::keep_surface(const double dt)
   {
@@ -335,7 +343,7 @@ namespace treacle
       }
     const Advection<dim> advection(prm.advection, *state, *domain, dt);
     State<dim>           next = advection.advance(state->mesh, reach);
-    if (time_step.is_second_order())
+    if (remembers())
       next.before = advection.velocity_before(*state->mesh);
     next.phi     = state->phi;
     next.v       = state->v; // the first guess of the next solves
@@ -351,14 +359,14 @@ namespace treacle
   Simulator<dim>::stay(const double dt)
   {
     const BackwardDifference difference(dt, *state);
-    VelocityBefore<dim>      before(*state->mesh, dt);
+    VelocityBefore<dim>      before{dt, {}, state->u};
     state->u.zero_out_ghost_values();
-    before.u = state->u;
     if (difference.before != 0)
-      state->u.sadd(difference.now, difference.before, state->before->u);
-    before.u.update_ghost_values();
+      state->u.sadd(difference.now, difference.before, *state->before->u);
+    before.u->update_ghost_values();
     state->u.update_ghost_values();
-    if (time_step.is_second_order())
+    state->before.reset();
+    if (remembers())
       state->before = std::move(before);
     state->time += dt;
     ++state->step;
@@ -368,7 +376,9 @@ namespace treacle
   void
   Simulator<dim>::step(const double dt)
   {
-    Timer                    wall;
+    Timer wall;
+    if (scene.has_switch_at(state->time))
+      state->before.reset();
     const BackwardDifference difference(dt, *state);
     info    = StepInfo<dim>();
     info.dt = dt;

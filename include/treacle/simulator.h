@@ -100,6 +100,11 @@ namespace treacle
     void
     stay(const double dt);
 
+    /// Is the velocity of now of use to the step after this one? Not before an emitter
+    /// starts or stops.
+    bool
+    remembers() const;
+
     void
     output_frame();
 

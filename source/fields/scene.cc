@@ -343,6 +343,15 @@ namespace treacle
     return next;
   }
 
+  template <int dim>
+  bool
+  Scene<dim>::has_switch_at(const double t) const
+  {
+    return std::any_of(emitter_list.begin(), emitter_list.end(), [&](const Emitter<dim> &emitter) {
+      return std::abs(emitter.start_time - t) <= 1e-12 * t || std::abs(emitter.stop_time - t) <= 1e-12 * t;
+    });
+  }
+
 
 
   template <int dim>

@@ -76,9 +76,17 @@ namespace treacle
     /// cell, face velocity (and that of the step before), pressure.
     template <int dim>
     unsigned int
-    row_size(const bool with_material, const bool with_before)
+    row_size(const bool with_material, const std::string &before)
     {
-      return (dim + 1) * (dim + 2 + (with_material ? 2 : 0) + (with_before ? dim + 1 : 0)) + 1;
+      return (dim + 1) * (dim + 2 + (with_material ? 2 : 0) +
+                          (before == "nodes" ? dim : before == "faces" ? 1 : 0)) + 1;
+    }
+
+    template <int dim>
+    std::string
+    velocity_before(const State<dim> &state)
+    {
+      return !state.before ? "none" : state.before->v ? "nodes" : "faces";
     }
 
     bool
@@ -87,18 +95,11 @@ namespace treacle
       return info.get("Advected material") == "true";
     }
 
-    /// Zero if there is none.
-    double
-    step_before(const CheckpointInfo &info)
-    {
-      return std::stod(info.get("Step before"));
-    }
-
     template <int dim>
     unsigned int
     row_size(const CheckpointInfo &info)
     {
-      return row_size<dim>(has_material(info), step_before(info) > 0);
+      return row_size<dim>(has_material(info), info.get("Velocity before"));
     }
 
     /// Call @p visit with each number of the rows of this rank's cells in turn.
@@ -114,9 +115,9 @@ namespace treacle
               visit(state.phi, node, mesh.n_owned_nodes());
               for (unsigned int d = 0; d < dim; ++d)
                 visit(state.v.component[d], node, mesh.n_owned_nodes());
-              if (state.before)
+              if (state.before && state.before->v)
                 for (unsigned int d = 0; d < dim; ++d)
-                  visit(state.before->v.component[d], node, mesh.n_owned_nodes());
+                  visit(state.before->v->component[d], node, mesh.n_owned_nodes());
               if (state.material)
                 {
                   visit(state.material->density, node, mesh.n_owned_nodes());
@@ -126,8 +127,8 @@ namespace treacle
           for (const LocalIndex face : mesh.cell_faces[c])
             {
               visit(state.u, face, mesh.n_owned_faces());
-              if (state.before)
-                visit(state.before->u, face, mesh.n_owned_faces());
+              if (state.before && state.before->u)
+                visit(*state.before->u, face, mesh.n_owned_faces());
             }
           visit(state.pressure, c, mesh.n_owned_cells());
         }
@@ -145,6 +146,7 @@ namespace treacle
       out << std::setprecision(17) << "Format = 3\nDimension = " << dim
           << "\nRanks = " << Utilities::MPI::n_mpi_processes(mesh.communicator())
           << "\nTime = " << state.time << "\nStep = " << state.step
+          << "\nVelocity before = " << velocity_before(state)
           << "\nStep before = " << (state.before ? state.before->dt : 0.)
           << "\nFrame = " << progress.frame << "\nCells = " << mesh.cells->size()
           << "\nAdvected material = " << (state.material ? "true" : "false")
@@ -201,7 +203,7 @@ namespace treacle
       TableFile<int>::write(comm, fresh + "/leaves", numbers_of_leaves(mesh.octree()));
 
     std::vector<double> rows;
-    const unsigned int size = row_size<dim>(state.material.has_value(), state.before.has_value());
+    const unsigned int size = row_size<dim>(state.material.has_value(), velocity_before(state));
     rows.reserve(size * mesh.n_owned_cells());
     for_each_number<dim>(state,
                          [&](const Vector &v, const LocalIndex i, const LocalIndex) {
@@ -369,8 +371,15 @@ namespace treacle
     State<dim> state(mesh);
     if (has_material(info))
       state.material = CarriedMaterial(mesh->nodes);
-    if (step_before(info) > 0)
-      state.before.emplace(*mesh, step_before(info));
+    if (const std::string before = info.get("Velocity before"); before != "none")
+      {
+        state.before.emplace();
+        state.before->dt = std::stod(info.get("Step before"));
+        if (before == "nodes")
+          state.before->v.emplace(mesh->nodes);
+        else
+          state.before->u.emplace(mesh->faces);
+      }
     state.time = std::stod(info.get("Time"));
     state.step = std::stoul(info.get("Step"));
     auto next  = rows.begin();
@@ -383,11 +392,10 @@ namespace treacle
                          });
     if (state.material)
       state.material->update_ghost_values();
-    if (state.before)
-      {
-        state.before->v.update_ghost_values();
-        state.before->u.update_ghost_values();
-      }
+    if (state.before && state.before->v)
+      state.before->v->update_ghost_values();
+    if (state.before && state.before->u)
+      state.before->u->update_ghost_values();
     state.markers = load_markers<dim>(*mesh, directory, std::stoull(info.get("Markers")));
     state.phi.update_ghost_values();
     state.u.update_ghost_values();

@@ -119,8 +119,10 @@ namespace treacle
 
   template <int dim>
   void
-  Statistics<dim>::resume(const unsigned int step)
+  Statistics<dim>::resume(const State<dim> &state, const LiquidDomain<dim> &domain)
   {
+    make_row(state, domain, StepInfo<dim>());
+    const unsigned int    step = state.step;
     std::string           header, kept, error;
     std::array<double, 3> restored{}; // volume of the first row, rebuilds, emitted volume
     if (Utilities::MPI::this_mpi_process(comm) == 0)
@@ -146,8 +148,15 @@ namespace treacle
               restored[2] = column(emitted_name<dim>());
               kept += line + '\n';
             }
-        columns = names;
-        if (kept.empty())
+        const auto [old, now] = std::mismatch(
+          names.begin(), names.end(), row.begin(), row.end(), [](const auto &name, const Entry &entry) {
+            return name == entry.name;
+          });
+        if (!kept.empty() && (old != names.end() || now != row.end()))
+          error = "The run cannot be resumed: only one of the columns of \"" + path +
+                  "\" and those of this run has \"" + (old != names.end() ? *old : now->name) +
+                  "\"; let the subsections Solid and Probe be as they were.";
+        else if (kept.empty())
           error = "The run cannot be resumed: the table \"" + path +
                   "\" has no row before step " + std::to_string(step) + ".";
         else
@@ -167,6 +176,16 @@ namespace treacle
   Statistics<dim>::add_row(const State<dim>        &state,
                            const LiquidDomain<dim> &domain,
                            const StepInfo<dim>     &info)
+  {
+    make_row(state, domain, info);
+    append();
+  }
+
+  template <int dim>
+  void
+  Statistics<dim>::make_row(const State<dim>        &state,
+                            const LiquidDomain<dim> &domain,
+                            const StepInfo<dim>     &info)
   {
     const Measures<dim> measures = measure(state, domain);
     const double        volume   = rounded(measures.volume);
@@ -220,7 +239,6 @@ namespace treacle
         add.vector(probe + " velocity", "m/s", values[k].velocity, dim);
         add.number(probe + " pressure (Pa)", values[k].pressure);
       }
-    append();
   }
 
   template <int dim>
@@ -228,19 +246,6 @@ namespace treacle
   Statistics<dim>::append()
   {
     std::string error;
-    if (Utilities::MPI::this_mpi_process(comm) == 0)
-      {
-        const auto [old, now] = std::mismatch(
-          columns.begin(), columns.end(), row.begin(), row.end(), [](const auto &name, const Entry &entry) {
-            return name == entry.name;
-          });
-        if (!columns.empty() && (old != columns.end() || now != row.end()))
-          error = "The run cannot be resumed: of the columns of \"" + path + "\" and of this run only one has \"" +
-                  (old != columns.end() ? *old : now->name) +
-                  "\"; let the subsections Solid and Probe be as they were.";
-      }
-    throw_first(comm, error);
-    columns.clear();
     if (Utilities::MPI::this_mpi_process(comm) == 0)
       {
         std::ofstream file(path, has_file ? std::ios::app : std::ios::trunc);

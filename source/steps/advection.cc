@@ -6,6 +6,7 @@
 #include <treacle/steps/back_and_forth.h>
 #include <treacle/steps/marker_correction.h>
 #include <treacle/steps/surface_velocity.h>
+#include <treacle/steps/time_step.h>
 
 namespace treacle
 {
@@ -39,7 +40,7 @@ namespace treacle
     velocity_in_middle(const State<dim> &old, const double dt, const BackwardDifference &difference)
     {
       const double part = difference.before == 0 ? 0. : 0.5 * dt / old.before->dt;
-      return combined(1 + part, old.v, -part, part == 0 ? old.v : old.before->v);
+      return combined(1 + part, old.v, -part, part == 0 ? old.v : *old.before->v);
     }
   } // namespace
 
@@ -66,7 +67,8 @@ namespace treacle
     , dt(dt)
     , difference(dt, old)
     , velocity(velocity_in_middle(old, dt, difference))
-    , surface_velocity(treacle::surface_velocity(old, domain, velocity))
+    , surface_velocity(treacle::surface_velocity(
+        old, domain, velocity, dt * maximum_speed(old, domain) + 2 * old.mesh->finest_size()))
     , phi(*old.mesh, old.phi)
   {}
 
@@ -140,9 +142,9 @@ namespace treacle
   VelocityBefore<dim>
   Advection<dim>::velocity_before(const Mesh<dim> &mesh) const
   {
-    VelocityBefore<dim> before(mesh, dt);
+    VelocityBefore<dim> before{dt, NodeVector<dim>(mesh.nodes), {}};
     if (&mesh == old.mesh.get())
-      before.v = combined(1, old.v, 0, old.v);
+      *before.v = old.v;
     else
       {
         std::vector<NodeField<dim>> fields;
@@ -151,9 +153,9 @@ namespace treacle
         const std::vector<double> v = Tracer<dim>(*old.mesh).evaluate(owned_nodes(mesh), fields);
         for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
           for (unsigned int d = 0; d < dim; ++d)
-            before.v.component[d].local_element(node) = v[dim * node + d];
+            before.v->component[d].local_element(node) = v[dim * node + d];
       }
-    before.v.update_ghost_values();
+    before.v->update_ghost_values();
     return before;
   }
 
@@ -213,8 +215,8 @@ namespace treacle
     add(difference.now, old.v, from, dt);
     if (difference.before != 0)
       add(difference.before,
-          old.before->v,
-          tracer.trace(from, combined(0.5, old.v, 0.5, old.before->v), -old.before->dt),
+          *old.before->v,
+          tracer.trace(from, combined(0.5, old.v, 0.5, *old.before->v), -old.before->dt),
           dt + old.before->dt);
     state.u.update_ghost_values();
   }

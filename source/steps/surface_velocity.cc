@@ -18,27 +18,35 @@ namespace treacle
                       const unsigned int                n_layers,
                       NodeVector<dim>                  &v)
     {
+      std::vector<LocalIndex> unknown;
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        if (is_known.local_element(node) == 0)
+          unknown.push_back(node);
+      is_known.update_ghost_values();
+      v.update_ghost_values();
       for (unsigned int layer = 0; layer < n_layers; ++layer)
         {
-          is_known.update_ghost_values();
-          v.update_ghost_values();
-          const NodeVector<dim> before = v;
-          before.update_ghost_values();
-          const Vector was_known = is_known;
-          was_known.update_ghost_values();
-          Tensor<1, dim> mean;
-          for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+          std::vector<std::pair<LocalIndex, Tensor<1, dim>>> found;
+          Tensor<1, dim>                                     mean;
+          for (const LocalIndex node : unknown)
+            if (mean_of_neighbours(mesh, v, is_known, node, mean))
+              found.emplace_back(node, mean);
+          for (const auto &[node, value] : found)
             {
-              if (was_known.local_element(node) > 0 ||
-                  !mean_of_neighbours(mesh, before, was_known, node, mean))
-                continue;
+              is_known.local_element(node) = 1;
               for (unsigned int d = 0; d < dim; ++d)
                 if (components[node] >> d & 1)
-                  v.component[d].local_element(node) = mean[d];
-              is_known.local_element(node) = 1;
+                  v.component[d].local_element(node) = value[d];
             }
+          unknown.erase(std::remove_if(unknown.begin(),
+                                       unknown.end(),
+                                       [&](const LocalIndex node) {
+                                         return is_known.local_element(node) > 0;
+                                       }),
+                        unknown.end());
+          is_known.update_ghost_values();
+          v.update_ghost_values();
         }
-      v.update_ghost_values();
     }
 
     /// The velocity gradient at free nodes in the liquid, mean over the cells around a node that
@@ -93,7 +101,10 @@ namespace treacle
     /// What the linear continuation adds to v at active nodes in the air, and beyond them.
     template <int dim>
     NodeVector<dim>
-    linear_part(const State<dim> &state, const LiquidDomain<dim> &domain, const NodeVector<dim> &v)
+    linear_part(const State<dim>        &state,
+                const LiquidDomain<dim> &domain,
+                const NodeVector<dim>   &v,
+                const double             distance)
     {
       const Mesh<dim>            &mesh = *state.mesh;
       const GradientInLiquid<dim> gradient(state, domain, v);
@@ -121,9 +132,10 @@ namespace treacle
             added.set(node, sum / n - v.value(node));
         }
       constexpr unsigned char all = (1u << dim) - 1;
-      // nodes lie at least half a leaf apart: as far as three leaves
+      // nodes lie at least half a leaf apart
+      const unsigned int n_layers = std::ceil(2 * distance / mesh.finest_size());
       continue_outwards(
-        mesh, is_known, std::vector<unsigned char>(mesh.n_owned_nodes(), all), 6, added);
+        mesh, is_known, std::vector<unsigned char>(mesh.n_owned_nodes(), all), n_layers, added);
       return added;
     }
   } // namespace
@@ -132,11 +144,12 @@ namespace treacle
   NodeVector<dim>
   surface_velocity(const State<dim>        &state,
                    const LiquidDomain<dim> &domain,
-                   const NodeVector<dim>   &v)
+                   const NodeVector<dim>   &v,
+                   const double             distance)
   {
     const Mesh<dim>      &mesh   = domain.mesh;
     NodeVector<dim>       result = v;
-    const NodeVector<dim> added  = linear_part(state, domain, v);
+    const NodeVector<dim> added  = linear_part(state, domain, v, distance);
     Vector                is_free(mesh.nodes);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
@@ -149,7 +162,7 @@ namespace treacle
   }
 
   template NodeVector<2>
-  surface_velocity(const State<2> &, const LiquidDomain<2> &, const NodeVector<2> &);
+  surface_velocity(const State<2> &, const LiquidDomain<2> &, const NodeVector<2> &, const double);
   template NodeVector<3>
-  surface_velocity(const State<3> &, const LiquidDomain<3> &, const NodeVector<3> &);
+  surface_velocity(const State<3> &, const LiquidDomain<3> &, const NodeVector<3> &, const double);
 } // namespace treacle

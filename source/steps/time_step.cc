@@ -54,7 +54,8 @@ namespace treacle
   double
   TimeStep<dim>::reach(const Mesh<dim> &mesh) const
   {
-    return (prm.cfl + 3 * (mesh.surface_size() / mesh.finest_size())) * mesh.finest_size();
+    // BDF2 asks for the velocity before of where the surface will be
+    return ((is_second_order() ? 2 : 1) * prm.cfl + 3 * (mesh.surface_size() / mesh.finest_size())) * mesh.finest_size();
   }
 
   template <int dim>

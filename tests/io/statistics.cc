@@ -85,7 +85,8 @@ check(const MPI_Comm &comm, const bool with_names)
     std::ofstream(name, std::ios::app) << "  4 1.0";
   MPI_Barrier(comm);
   Statistics<dim> resumed(comm, ".");
-  resumed.resume(2);
+  state.step = 2;
+  resumed.resume(state, LiquidDomain<dim>(state, scene, 0.01));
   state.phi.add(0.01);
   state.phi.update_ghost_values();
   state.time   = 10;

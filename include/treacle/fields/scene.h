@@ -123,6 +123,10 @@ namespace treacle
     double
     next_switch(const double t) const;
 
+    /// Does an emitter start or stop at t?
+    bool
+    has_switch_at(const double t) const;
+
     /// Are density and viscosity carried along with the liquid?
     bool
     has_advected_material() const;

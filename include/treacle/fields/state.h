@@ -33,19 +33,13 @@ namespace treacle
 
 
 
-  /// The velocity of the step before, on the mesh of now.
+  /// The velocity of the step before, on the mesh of now (m/s).
   template <int dim>
   struct VelocityBefore
   {
-    double          dt; ///< since then (s)
-    NodeVector<dim> v;  ///< at nodes, where liquid is advected (m/s)
-    Vector          u;  ///< at faces, where it is not (m/s)
-
-    VelocityBefore(const Mesh<dim> &mesh, const double dt)
-      : dt(dt)
-      , v(mesh.nodes)
-      , u(mesh.faces)
-    {}
+    double                         dt; ///< since then (s)
+    std::optional<NodeVector<dim>> v;  ///< where liquid is advected
+    std::optional<Vector>          u;  ///< where it is not
   };
 
 

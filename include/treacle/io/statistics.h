@@ -41,10 +41,10 @@ namespace treacle
                const std::string &directory,
                const Probes<dim> &probes = Probes<dim>());
 
-    /// Continue the old table behind the row of this step. Throws a UserError
-    /// on all ranks if there is no such table; add_row if it has other columns. Collective.
+    /// Continue the old table behind the row of this state. Throws a UserError
+    /// on all ranks if there is no such table, or one with other columns. Collective.
     void
-    resume(const unsigned int step);
+    resume(const State<dim> &state, const LiquidDomain<dim> &domain);
 
     /// Without loads zeros are written. Collective; throws a UserError on all ranks if the file cannot be written.
     void
@@ -58,6 +58,11 @@ namespace treacle
 
   private:
     void
+    make_row(const State<dim>        &state,
+             const LiquidDomain<dim> &domain,
+             const StepInfo<dim>     &info);
+
+    void
     append();
 
     MPI_Comm           comm;
@@ -69,7 +74,6 @@ namespace treacle
     double             emitted      = 0; ///< since the start (m^dim)
     unsigned int       n_rebuilds   = 0;
     std::vector<Entry> row;
-    std::vector<std::string> columns; ///< of a table that is continued, until the first row (rank 0)
   };
 } // namespace treacle
 

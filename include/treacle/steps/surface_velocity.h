@@ -9,7 +9,7 @@
 namespace treacle
 {
   /// What moves the surface: the node velocity @p v, but
-  /// - in the air beside the surface the velocity of the liquid, continued linearly. The fit to
+  /// - in the air up to @p distance (m) from the surface that of the liquid, continued linearly. The fit to
   ///   the faces knows nothing beyond the last of them and continues it as a constant: a wave
   ///   would be late as if its surface lay a third of a leaf deeper (case C4).
   /// - at walls and in solids the velocity of the nodes beside them. With the wall's own a film of
@@ -21,7 +21,8 @@ namespace treacle
   NodeVector<dim>
   surface_velocity(const State<dim>        &state,
                    const LiquidDomain<dim> &domain,
-                   const NodeVector<dim>   &v);
+                   const NodeVector<dim>   &v,
+                   const double             distance);
 } // namespace treacle
 
 #endif
