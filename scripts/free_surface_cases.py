@@ -68,6 +68,7 @@ FALL, FALL_3D = ({"fall": (change(f"Centre of mass {axis} (m)"), -9.81 * 0.1 ** 
                  for axis in "yz")
 KEPT, KEPT_3D = ({"angular momentum": (kept(f"Angular momentum {axis}(kg m^2/s)"), 1),
                   "kinetic energy": (kept("Kinetic energy (J)"), 1)} for axis in ("", "z "))
+FLIGHT = {"front": (last(RIGHT), 2.2), "kinetic energy": (kept("Kinetic energy (J)"), 1)}
 AT_REST = {"speed at the end (m/s)": (last("Maximum speed (m/s)"), 0)}
 WAVE = wave_case(1, 6, 0.575442182, 1.47245435)
 THIN_WAVE = wave_case(1, 8, 0.0879152071, 1.75697276)
@@ -104,6 +105,7 @@ FREE_SURFACE_CASES = {
     "C1 tilted": case("still_tilted", 4, 0.01, AT_REST, STILL, 1e-8, order=None, n_levels=2),
     "C2 fall": case("free_fall_2d", 4, 0.02, FALL, in_time=({},)),
     "C2 fall 3D": case("free_fall", 4, 0.02, FALL_3D, GRADED, n_levels=2),
+    "C2 flight": case("flight_2d", 4, 0.1875, FLIGHT, order=None),
     "C2 rotation": case("rigid_rotation_2d", 4, 0.02, KEPT, in_time=({},)),
     "C2 rotation 3D": case("rigid_rotation", 4, 0.02, KEPT_3D, GRADED, n_levels=2),
     "C3 k pi, h 1, nu 1": case("relaxation", 2, 0.1, {"rate": (surface_rate(pi, 1), 0.145546628)},
