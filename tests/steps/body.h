@@ -55,11 +55,13 @@ namespace tests
     return result;
   }
 
+  using CheckOfLevels = void (*)(const MPI_Comm &, const std::vector<unsigned int> &);
+
   /// A dimension and levels among the arguments are for a person; without them the test runs
   /// on 1, 2 and 3 ranks.
-  template <typename InTwo, typename InThree, typename Test>
+  template <typename Test>
   void
-  run(const int argc, char **argv, const InTwo &in_two, const InThree &in_three, const Test &test)
+  run(const int argc, char **argv, const CheckOfLevels in_two, const CheckOfLevels in_three, const Test &test)
   {
     const auto arguments = tests::arguments(argc, argv);
     const auto levels    = tests::levels(arguments, 1);
