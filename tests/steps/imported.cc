@@ -71,8 +71,8 @@ check_fall(const MPI_Comm &comm, const unsigned int n)
   const std::string volume = "Liquid volume (m^" + std::to_string(dim) + ")";
   const double      fallen = rows.front().at(z) - rows.back().at(z);
   out().precision(4);
-  out() << dim << "D free fall: " << rows.size() - 1 << " steps, fallen / (g t (t - dt) / 2) "
-        << fallen / (9.81 * 0.1 * 0.09 / 2) << ", volume / first "
+  out() << dim << "D free fall: " << rows.size() - 1 << " steps, fallen / (g t^2 / 2) "
+        << fallen / (9.81 * 0.1 * 0.1 / 2) << ", volume / first "
         << rows.back().at(volume) / rows.front().at(volume) << std::endl;
 }
 
