@@ -2,7 +2,7 @@
 // Copyright (C) the Treacle authors
 
 // Forces on solids and walls. A box full of liquid in which one ball turns and another is
-// still: forces are what changes the liquid's momentum, to the tolerance of the solvers, and
+// still: forces are what changes the liquid's momentum (in a step of backward Euler), to the tolerance of the solvers, and
 // torques of the viscous step with the face-fitted mappings are. Still liquid under gravity: the buoyancy of two balls. A
 // drop that falls: nothing on a ball that it does not touch.
 
@@ -32,7 +32,7 @@ namespace
                  const bool         pressure = true)
   {
     const std::string turn = std::to_string(spin);
-    return std::string("set End time = 0.02\nset Frame interval = 0.02\n"
+    return std::string("set End time = 0.02\nset Frame interval = 0.02\nset Time scheme = backward Euler\n"
                        "set Maximum time step = 0.01\nset Maximum CFL number = 10\n") +
            "subsection Steps\nset Surface = false\nset Advection = false\nset Pressure = " +
            (pressure ? "true" : "false") + "\nend\n" +
