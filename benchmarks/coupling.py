@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) the Treacle authors
 """Iterations and seconds of the couplings of viscosity and pressure, by viscosity and mesh:
-five steps of prm/benchmarks/coupling.prm each, tables in markdown.
+five steps of prm/benchmarks/coupling.prm (in 2D coupling_2d.prm) each, tables in markdown.
 
     benchmarks/coupling.py [--dimension 2|3] [--levels 4 5 ...] [--viscosities 1 1e2 ...] [--ranks N]
 
@@ -21,9 +21,7 @@ sys.path.insert(0, str(ROOT / "scripts"))
 from statistics import read_statistics  # noqa: E402
 
 COUPLINGS = ["split", "split with first projection", "coupled"]
-IN_PLANE = {"Gravity/Acceleration": "0; -1", "Solid 1/Centre": "0.52, 0.33",
-            "Domain/Lower corner": "0, 0", "Domain/Upper corner": "1, 1",
-            "Liquid 1/Expression": "max(abs(x - 0.5), abs(y - 0.3)) - 0.31"}
+SCENES = {2: "coupling_2d", 3: "coupling"}
 
 
 def sections(directory):
@@ -36,11 +34,11 @@ def sections(directory):
     return seconds
 
 
-def measure(settings, ranks):
+def measure(dimension, settings, ranks):
     """Cells, iterations of viscosity and of pressure, seconds of a solve and of a step, fallbacks."""
     with tempfile.TemporaryDirectory() as directory:
         line = ["mpirun", "-np", str(ranks)] if ranks > 1 else []
-        line += [ROOT / "build/release/treacle", ROOT / "prm/benchmarks/coupling.prm"]
+        line += [ROOT / "build/release/treacle", ROOT / f"prm/benchmarks/{SCENES[dimension]}.prm"]
         for name, value in {**settings, "Output directory": directory}.items():
             line += ["--set", f"{name}={value}"]
         done = subprocess.run(line, capture_output=True, text=True)
@@ -68,8 +66,7 @@ def main():
         for viscosity in arguments.viscosities:
             row, solves = [], []
             for coupling in COUPLINGS:
-                cells, of_viscosity, of_pressure, solve, step, fallbacks = measure({
-                    "Dimension": arguments.dimension, **(IN_PLANE if arguments.dimension == 2 else {}),
+                cells, of_viscosity, of_pressure, solve, step, fallbacks = measure(arguments.dimension, {
                     "Mesh/Surface level": level, "Mesh/Interior level": level - 1,
                     "Mesh/Air level": level - 3, "Material/Viscosity": viscosity,
                     "Viscosity/Pressure coupling": coupling}, arguments.ranks)
