@@ -60,7 +60,7 @@ namespace treacle
   {
     for (const LocalIndex c : projection.cells())
       {
-        double stiffness = domain.mesh.cell_volume[c] / (2 * dt * domain.viscosity[c]);
+        double stiffness = domain.open_volume(c) / (2 * dt * domain.viscosity[c]);
         for (const LocalIndex f : domain.mesh.cell_faces[c])
           if (domain.is_liquid_face(f))
             stiffness += diagonal_weight * (1 - hybrid.share[f]) *
