@@ -77,8 +77,8 @@ DROP = {f"{name}, t = {t}": (half_axis(axis, t), exact[i]) for t, *exact in AXES
 COLUMN, COLUMN_3D = ({f"h, T = {t / 40}": (at(f"Liquid maximum {axis} (m)", t), exact)
                       for t, exact in ((20, 0.810930216), (40, 0.693147181), (80, 0.549306144))}
                      for axis in "yz")
-COIL = {"frequency": (turning((0.377, 0.374), 0.6, 2.5, 4.9), 4),
-        "radius": (coil_radius(0.05, 4.9), 0.25)}
+COIL = {"frequency": (turning((0.377, 0.374), 0.6, 2, 3.9), 4),
+        "radius": (coil_radius(0.05, 3.9), 0.25)}
 FILM = {"u at the surface": (last("Probe 4 velocity x (m/s)"), 0.5), "flux": (flux, 1 / 3)}
 CURRENT = {"front, T = 30": (at(RIGHT, 270), 2.7909), "h(0)": (height(270), 0.4258)}
 SLUMP_SLIP = {f"{name}, t = {t}": (measure(t), exact[i]) for t, *exact in SLIP
