@@ -143,7 +143,7 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  out().precision(6);
+  out().precision(4);
   on_1_2_3_ranks([](const MPI_Comm &comm) {
     check<2>(comm);
     check<3>(comm);
