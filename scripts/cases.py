@@ -48,7 +48,6 @@ class Program:
     settings: dict = field(default_factory=dict)
     order: float = 0.5
     n_levels: int = 9
-    in_time: tuple = ()
 
     @property
     def path(self):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/fields/velocity_gradient.h>
 #include <treacle/io/measures.h>
 
 namespace treacle
@@ -76,13 +77,8 @@ namespace treacle
             const auto parts = domain.cut_cells.parts(c);
             for (const auto &part : parts)
               add_dissipation(part.fraction, part.velocity_gradient(mesh.cell_nodes[c], state.v));
-            if (parts.size() > 0)
-              continue;
-            Tensor<2, dim> gradient;
-            for (unsigned int i = 0; i <= dim; ++i)
-              gradient += outer_product(state.v.value(mesh.cell_nodes[c][i]),
-                                        mesh.cell_gradients[c][i]);
-            add_dissipation(1, gradient);
+            if (parts.size() == 0)
+              add_dissipation(1, velocity_gradient(mesh, c, state.v));
           }
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/fields/velocity_gradient.h>
 #include <treacle/steps/reactions.h>
 
 namespace treacle
@@ -66,11 +67,8 @@ namespace treacle
               return n >= mesh.n_owned_nodes() || domain.constrained[n] == 0;
             }))
           continue;
-        const auto    &g = mesh.cell_gradients[c];
-        Tensor<2, dim> grad;
-        for (unsigned int i = 0; i <= dim; ++i)
-          grad += outer_product(v.value(nodes[i]), g[i]);
-        const Tensor<2, dim> sigma = stress<dim>(stiffness, c, grad);
+        const auto          &g     = mesh.cell_gradients[c];
+        const Tensor<2, dim> sigma = stress<dim>(stiffness, c, velocity_gradient(mesh, c, v));
         for (unsigned int i = 0; i <= dim; ++i)
           if (nodes[i] < mesh.n_owned_nodes())
             add_at_node(nodes[i], factor * (sigma * g[i]));

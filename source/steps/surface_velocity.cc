@@ -2,13 +2,14 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/fields/mapping.h>
+#include <treacle/fields/velocity_gradient.h>
 #include <treacle/steps/surface_velocity.h>
 
 namespace treacle
 {
   namespace
   {
-    /// Set @p component of v, by a mask for each node, to the mean over the known nodes
+    /// Set the @p components of v, by a mask for each node, to the mean over the known nodes
     /// around it, layer by layer.
     template <int dim>
     void
@@ -81,9 +82,7 @@ namespace treacle
                 const auto      &nodes = mesh.cell_nodes[c];
                 if (!std::all_of(nodes.begin(), nodes.end(), is_liquid))
                   continue;
-                for (unsigned int i = 0; i <= dim; ++i)
-                  sum += mesh.cell_volume[c] *
-                         outer_product(v.value(nodes[i]), mesh.cell_gradients[c][i]);
+                sum += mesh.cell_volume[c] * velocity_gradient(mesh, c, v);
                 volume += mesh.cell_volume[c];
               }
             if (volume == 0)
