@@ -166,7 +166,7 @@ check(const MPI_Comm &comm, const std::string &name, const unsigned int level)
       tracking.method            = method;
       tracking.volume_correction = false;
       const Errors e             = carry<dim>(comm, name, level, 2, tracking);
-      out() << dim << "D, " << name << ", " << method << ": volume " << std::setprecision(4)
+      out() << dim << "D, " << name << ", " << method << ": volume " << std::setprecision(3)
             << e.volume << ", shape " << e.shape << std::endl;
     }
 }
