@@ -11,9 +11,8 @@ namespace treacle
 {
   namespace
   {
-    /// Of the diagonal of B (1 - s) M^-1 B^T in the viscous part of the preconditioner: it
-    /// holds the cells down whose pressure the surface beside them sets. Measured: doc/method.md
-    constexpr double diagonal_weight = 4;
+    /// Of mu dt over rho h^2: less than this is none.
+    constexpr double least_viscosity = 1e-12;
   } // namespace
 
   template <int dim>
@@ -53,21 +52,27 @@ namespace treacle
                    "Viscosity",
                    *hybrid.stiff.matrix,
                    system.stress_free_motions(stiffness))
+    , viscous_schur(viscous_schur_complement())
+    , viscous_schur_solver(viscosity_solver, "Viscosity", *viscous_schur)
     , v(domain.mesh.nodes)
     , q(domain.mesh.zeros(domain.mesh.cells))
     , flux(domain.mesh.zeros(domain.mesh.faces))
     , force(domain.mesh.zeros(domain.mesh.faces))
+    , z_viscous(projection.pressure_rows(), domain.mesh.communicator())
+  {}
+
+  template <int dim>
+  std::unique_ptr<const TrilinosWrappers::SparseMatrix>
+  Coupled<dim>::viscous_schur_complement() const
   {
+    std::vector<double> mass;
     for (const LocalIndex c : projection.cells())
-      {
-        double stiffness = domain.open_volume(c) / (2 * dt * domain.viscosity[c]);
-        for (const LocalIndex f : domain.mesh.cell_faces[c])
-          if (domain.is_liquid_face(f))
-            stiffness += diagonal_weight * (1 - hybrid.share[f]) *
-                         std::pow(domain.open_fraction[f] * domain.mesh.face_area[f], 2) /
-                         domain.face_mass[f];
-        cell_compliance.push_back(stiffness < std::numeric_limits<double>::max() ? 1 / stiffness : 0);
-      }
+      mass.push_back(
+        domain.open_volume(c) / 2 /
+        std::max(domain.viscosity[c] * dt,
+                 least_viscosity * domain.density[c] * std::pow(domain.mesh.cell_size[c], 2)));
+    return projection.assemble(
+      [this](const LocalIndex f) { return (1 - hybrid.share[f]) / domain.face_mass[f]; }, mass);
   }
 
   template <int dim>
@@ -121,8 +126,8 @@ namespace treacle
   {
     nodes_solver.precondition(z.block(0), r.block(0));
     projection.precondition(z.block(1), r.block(1));
-    for (unsigned int i = 0; i < cell_compliance.size(); ++i)
-      z.block(1).local_element(i) += cell_compliance[i] * r.block(1).local_element(i);
+    viscous_schur_solver.precondition(z_viscous, r.block(1));
+    z.block(1) += z_viscous;
   }
 
   template <int dim>

@@ -8,6 +8,7 @@
 
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
+#include <ml_utils.h>
 
 #include <sstream>
 
@@ -46,9 +47,11 @@ namespace treacle
       Teuchos::ParameterList list;
       ML_Epetra::SetDefaults("SA", list);
       list.set("ML output", 0);
-      // the other ways to estimate eigenvalues start from random numbers, and a
-      // resumed run would not be the same bit for bit
-      list.set("eigen-analysis: type", "Anorm");
+      // from random numbers, each time the same: a resumed run must be the same bit for bit.
+      // "Anorm" bounds eigenvalues from far above: up to twice the iterations
+      list.set("eigen-analysis: type", "cg");
+      ML_set_random_seed(1 + Utilities::MPI::this_mpi_process(matrix.get_mpi_communicator()));
+      list.set("prec type", "MGW"); // MGV: iterations grow with the level
       list.set("smoother: type", "Chebyshev");
       list.set("smoother: sweeps", 2);
       list.set("smoother: Chebyshev alpha", 10.);

@@ -32,8 +32,7 @@ namespace treacle
     , rows(numbering.rows)
   {
     find_closed_pockets();
-    assemble();
-    solver = std::make_unique<LinearSolver>(prm.solver, "Pressure", *matrix);
+    set_up_solver();
   }
 
   template <int dim>
@@ -112,11 +111,11 @@ namespace treacle
   }
 
   template <int dim>
-  void
-  Projection<dim>::assemble()
+  std::unique_ptr<TrilinosWrappers::SparseMatrix>
+  Projection<dim>::assemble(const FaceFunction &mobility, const std::vector<double> &diagonal) const
   {
-    const Mesh<dim> &mesh = domain.mesh;
-    matrix = std::make_unique<TrilinosWrappers::SparseMatrix>(
+    const Mesh<dim> &mesh   = domain.mesh;
+    auto             matrix = std::make_unique<TrilinosWrappers::SparseMatrix>(
       rows, rows, mesh.communicator(), std::vector<unsigned int>(owned_cells.size(), dim + 2));
     std::vector<GlobalIndex> indices;
     std::vector<double>      values;
@@ -124,12 +123,12 @@ namespace treacle
       {
         const LocalIndex c = owned_cells[i];
         indices.assign(1, number[c]);
-        values.assign(1, 0.);
+        values.assign(1, diagonal[i]);
         for (const LocalIndex f : mesh.cell_faces[c])
           if (domain.is_liquid_face(f))
             {
               const double     flux = domain.open_fraction[f] * mesh.face_area[f];
-              const double     k    = flux * flux / domain.face_mass[f];
+              const double     k    = flux * flux * mobility(f);
               const LocalIndex other =
                 mesh.face_cells[f][0] == c ? mesh.face_cells[f][1] : mesh.face_cells[f][0];
               values[0] += k;
@@ -141,11 +140,25 @@ namespace treacle
             }
         if (values[0] == 0) // walled in on all sides
           values[0] = 1;
-        if (std::find(pinned.begin(), pinned.end(), i) != pinned.end())
-          values[0] *= 2;
         matrix->set(number[c], indices.size(), indices.data(), values.data(), false);
       }
     matrix->compress(VectorOperation::insert);
+    return matrix;
+  }
+
+  template <int dim>
+  void
+  Projection<dim>::set_up_solver()
+  {
+    matrix = assemble([this](const LocalIndex f) { return 1 / domain.face_mass[f]; },
+                      std::vector<double>(owned_cells.size(), 0.));
+    for (const unsigned int i : pinned)
+      {
+        const GlobalIndex row = number[owned_cells[i]];
+        matrix->set(row, row, 2 * matrix->diag_element(row));
+      }
+    matrix->compress(VectorOperation::insert);
+    solver = std::make_unique<LinearSolver>(prm.solver, "Pressure", *matrix);
   }
 
   template <int dim>

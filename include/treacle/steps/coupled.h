@@ -20,8 +20,8 @@ namespace treacle
   ///   -B s P v - B (1 - s) M^-1 B^T q     = B (1 - s) u*,
   ///
   /// symmetric and indefinite, solved by MINRES. Its preconditioner is one multigrid cycle
-  /// for the first block, and for the pressure one of the projection's matrix and the
-  /// viscosity, as in Cahouet & Chabard (1988).
+  /// for the first block, and for the pressure one of the projection's matrix and one of
+  /// what viscosity makes of the Schur complement, as in Cahouet & Chabard (1988).
   template <int dim>
   class Coupled
   {
@@ -53,6 +53,11 @@ namespace treacle
   private:
     using Pair = LinearAlgebra::distributed::BlockVector<double>; ///< of v and q
 
+    /// V / (2 mu dt) + B (1 - s) M^-1 B^T: what the Schur complement comes to where viscosity
+    /// rules.
+    std::unique_ptr<const TrilinosWrappers::SparseMatrix>
+    viscous_schur_complement() const;
+
     /// The unknowns of v, zero where it is prescribed, into nodes; of q into cells.
     void
     scatter(const Pair &x) const;
@@ -78,10 +83,11 @@ namespace treacle
     const typename NodeSystem<dim>::Stiffness stiffness;
     const Hybrid<dim>        hybrid;
     const LinearSolver       nodes_solver;
-    std::vector<double>      cell_compliance; ///< about 2 mu dt / V, of each row
+    const std::unique_ptr<const TrilinosWrappers::SparseMatrix> viscous_schur;
+    const LinearSolver                                          viscous_schur_solver;
     /// scratch
     mutable NodeVector<dim> v;
-    mutable Vector          q, flux, force;
+    mutable Vector          q, flux, force, z_viscous;
   };
 } // namespace treacle
 

@@ -114,6 +114,13 @@ namespace treacle
     void
     take_off_mean(Vector &q) const;
 
+    using FaceFunction = std::function<double(const LocalIndex)>;
+
+    /// B diag(mobility) B^T + diag(diagonal), one entry a row, with the mobility of each liquid
+    /// face; that of the projection is 1 / M_f.
+    std::unique_ptr<TrilinosWrappers::SparseMatrix>
+    assemble(const FaceFunction &mobility, const std::vector<double> &diagonal) const;
+
     /// z = the preconditioner of the pressure's matrix times r.
     void
     precondition(Vector &z, const Vector &r) const
@@ -146,7 +153,7 @@ namespace treacle
     check_room(const Pocket &pocket) const;
 
     void
-    assemble();
+    set_up_solver();
 
     const Parameters         prm;
     const LiquidDomain<dim> &domain;
