@@ -65,12 +65,23 @@ namespace treacle
   std::unique_ptr<const TrilinosWrappers::SparseMatrix>
   Coupled<dim>::viscous_schur_complement() const
   {
+    const Mesh<dim>    &mesh = domain.mesh;
     std::vector<double> mass;
     for (const LocalIndex c : projection.cells())
-      mass.push_back(
-        domain.open_volume(c) / 2 /
-        std::max(domain.viscosity[c] * dt,
-                 least_viscosity * domain.density[c] * std::pow(domain.mesh.cell_size[c], 2)));
+      {
+        double open = 0, all = 0; // squares of areas
+        for (const LocalIndex f : mesh.cell_faces[c])
+          {
+            open += std::pow(domain.open_fraction[f] * mesh.face_area[f], 2);
+            all += std::pow(mesh.face_area[f], 2);
+          }
+        // little goes out of a cell that solids or emitters all but close
+        const double volume = std::min(domain.open_volume(c), open / all * mesh.cell_volume[c]);
+        const double mu_dt =
+          std::max(domain.viscosity[c] * dt,
+                   least_viscosity * domain.density[c] * std::pow(mesh.cell_size[c], 2));
+        mass.push_back(volume / (2 * mu_dt));
+      }
     return projection.assemble(
       [this](const LocalIndex f) { return (1 - hybrid.share[f]) / domain.face_mass[f]; }, mass);
   }
