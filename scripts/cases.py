@@ -5,6 +5,8 @@
 from dataclasses import dataclass, field
 
 EULER = {"Time scheme": "backward Euler"}
+SPLIT = {"Viscosity/Pressure coupling": "split"}
+FIRST_PROJECTION = {"Viscosity/Pressure coupling": "split with first projection"}
 
 
 @dataclass

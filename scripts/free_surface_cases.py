@@ -3,11 +3,11 @@
 """The exact cases with a free surface (section C), for scripts/verify. Where nothing else is said the
 error on the finest mesh is held to 3 %."""
 
-from math import pi, sqrt
+from math import exp, pi, sqrt
 
 import numpy
 
-from cases import EULER, Case, Program
+from cases import EULER, FIRST_PROJECTION, SPLIT, Case, Program
 from measures import (at, coil_radius, front, height, interpolated, last, surface_rate, turning,
                       wave)
 
@@ -74,11 +74,13 @@ WAVE = wave_case(1, 6, 0.575442182, 1.47245435)
 THIN_WAVE = wave_case(1, 8, 0.0879152071, 1.75697276)
 DROP = {f"{name}, t = {t}": (half_axis(axis, t), exact[i]) for t, *exact in AXES
         for i, (name, axis) in enumerate((("minor", "x"), ("major", "y")))}
+PULL = {"force": (last("Walls force y (N)"), 4 * 10 * 0.6 * exp(-0.08))}
+PULL_3D = {"force": (last("Walls force z (N)"), 3 * 10 * pi * 0.3 ** 2 * exp(-0.08))}
 COLUMN, COLUMN_3D = ({f"h, T = {t / 40}": (at(f"Liquid maximum {axis} (m)", t), exact)
                       for t, exact in ((20, 0.810930216), (40, 0.693147181), (80, 0.549306144))}
                      for axis in "yz")
-COIL = {"frequency": (turning((0.377, 0.374), 0.6, 2, 3.9), 4),
-        "radius": (coil_radius(0.05, 3.9), 0.25)}
+COIL = {"frequency": (turning((0.402, 0.399), 0.6, 2, 3.1), 4),
+        "radius": (coil_radius(0.05, 3.1), 0.25)}
 FILM = {"u at the surface": (last("Probe 4 velocity x (m/s)"), 0.5), "flux": (flux, 1 / 3)}
 CURRENT = {"front, T = 30": (at(RIGHT, 270), 2.7909), "h(0)": (height(270), 0.4258)}
 SLUMP_SLIP = {f"{name}, t = {t}": (measure(t), exact[i]) for t, *exact in SLIP
@@ -119,6 +121,8 @@ FREE_SURFACE_CASES = {
     "C4 nu 0.05": case("wave", 2, 0.1, WAVE, in_time=({}, EULER)),
     "C4 nu 0.005": case("wave", 2, 0.1, THIN_WAVE, THIN, in_time=({},)),
     "C5": case("stretched_drop", 2, 0.04, DROP, in_time=({},)),
+    "C6": case("stretching_2d", 4, 0.02, PULL, in_time=({}, FIRST_PROJECTION, SPLIT)),
+    "C6 3D": case("stretching_3d", 3, 0.02, PULL_3D, n_levels=2),
     "C7": case("sagging_column", 3, 1, COLUMN, in_time=({},)),
     "C7 3D": case("sagging_column_3d", 3, 1, COLUMN_3D, n_levels=2),
     "C8": case("film", 1, 0.1, FILM),

@@ -49,8 +49,9 @@ class Results:
     def energy_gain(self):
         """The largest rise of the total energy above what it was before, over the
         largest kinetic energy plus the range of the potential one; 0 where the surface
-        is kept, for then gravity goes on working, and where nothing moves."""
-        if self.parameters.get("Steps/Surface") == "false":
+        is kept, for then gravity goes on working, where an emitter works, and where nothing moves."""
+        emitted = (numpy.any(values) for name, values in self.table.items() if "Emitted" in name)
+        if self.parameters.get("Steps/Surface") == "false" or any(emitted):
             return 0.
         energy, potential = self.energy(), self["Potential energy (J)"]
         rise = numpy.max(energy - numpy.minimum.accumulate(energy))
