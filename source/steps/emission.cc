@@ -51,8 +51,8 @@ namespace treacle
   double
   emit(State<dim> &state, const Scene<dim> &scene, const double dt)
   {
-    // steps end where emitters start and stop
-    const double time = state.time - 0.5 * dt;
+    // steps end where emitters start and stop; those that work at the very start are full
+    const double time = state.time - 0.5 * dt, earlier = std::max(0., state.time - 1.001 * dt);
     if (std::none_of(scene.emitters().begin(), scene.emitters().end(), [&](const auto &emitter) {
           return emitter.is_at_work(time);
         }))
@@ -78,7 +78,7 @@ namespace treacle
             const Point<dim> from  = x - dt * scene.emitter_velocity(x, time);
             const double     depth = depth_beyond(from, scene, time);
             before.local_element(node) =
-              std::max(std::min(phi, scene.emitter_distance(from, time)), depth);
+              std::max(std::min(phi, scene.emitter_distance(from, earlier)), depth);
             const bool   is_skin = phi > -mesh.finest_size();
             if (depth > 0 && is_skin && scene.emitter_distance(in_box(from, scene), time) > 0)
               phi = std::max(phi, depth);
