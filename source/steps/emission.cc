@@ -51,7 +51,8 @@ namespace treacle
   double
   emit(State<dim> &state, const Scene<dim> &scene, const double dt)
   {
-    // steps end where emitters start and stop; those that work at the very start are full
+    // steps end where emitters start and stop. Full when this one began were those that worked
+    // just before it, and at t = 0 those that start there
     const double time = state.time - 0.5 * dt, earlier = std::max(0., state.time - 1.001 * dt);
     if (std::none_of(scene.emitters().begin(), scene.emitters().end(), [&](const auto &emitter) {
           return emitter.is_at_work(time);

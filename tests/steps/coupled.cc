@@ -25,10 +25,10 @@ namespace
   }
 
   std::string
-  mesh(const int level)
+  mesh(const int level, const int interior_level = 3)
   {
     return "subsection Mesh\nset Surface level = " + std::to_string(level) +
-           "\nset Interior level = 3\nset Air level = 2\nend\n";
+           "\nset Interior level = " + std::to_string(interior_level) + "\nset Air level = 2\nend\n";
   }
 
   std::string
@@ -100,10 +100,8 @@ namespace
         {
           const double n =
             run_scene<2>(comm,
-                         steps(0.02, 1) + "subsection Mesh\nset Surface level = " + std::to_string(level) +
-                           "\nset Interior level = " + std::to_string(level - 1) +
-                           "\nset Air level = 2\nend\nsubsection Material\nset Density = 1\nset Viscosity = " +
-                           viscosity +
+                         steps(0.02, 1) + mesh(level, level - 1) +
+                           "subsection Material\nset Density = 1\nset Viscosity = " + viscosity +
                            "\nend\nsubsection Gravity\nset Acceleration = 0; -1\nend\n"
                            "subsection Liquid 1\nset Shape = expression\n"
                            "set Expression = max(abs(x - 0.5), abs(y - 0.3)) - 0.31\nend\n"

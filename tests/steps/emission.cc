@@ -2,8 +2,9 @@
 // Copyright (C) the Treacle authors
 
 // What emitters pour out: against the ceiling and in the air, with a stop; the volume
-// is area times velocity times time. One that starts late brings its own volume with it. And liquids of two viscosities that travel: the
-// jump between them smears, with first order in the leaf.
+// is area times velocity times time. One that starts late brings its own volume with it.
+// And liquids of two viscosities that travel: the jump between them smears, with first
+// order in the leaf.
 // Argument: level.
 
 #include "../tests.h"
