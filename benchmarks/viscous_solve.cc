@@ -8,8 +8,8 @@
 
 #include <treacle/base/timing.h>
 #include <treacle/simulator.h>
-#include <treacle/steps/redistance.h>
-#include <treacle/steps/remesh.h>
+#include <treacle/surface/redistance.h>
+#include <treacle/transport/remesh.h>
 
 #include <cstdio>
 

@@ -41,9 +41,9 @@ class Case:
 
 @dataclass
 class Program:
-    """A program of tests/steps that prints errors; with "{level}" among the arguments it is
+    """A program of tests/ that prints errors; with "{level}" among the arguments it is
     run once a level, else the levels follow them."""
-    file: str
+    file: str         # of tests
     arguments: tuple
     first_level: int
     tolerances: dict  # of the quantities, in the order of the numbers of a line
@@ -53,7 +53,7 @@ class Program:
 
     @property
     def path(self):
-        return f"tests/steps/{self.file}.cc"
+        return f"tests/{self.file}.cc"
 
     @property
     def quantities(self):

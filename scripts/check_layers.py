@@ -3,7 +3,8 @@
 # Copyright (C) the Treacle authors
 
 """Check that the house has one direction: a file includes only what stands in
-its own layer or above it in LAYERS, and modules (x.h with x.cc) form no cycle.
+its own room or in a group before it in GROUPS; rooms of one group do not know each
+other, and modules (x.h with x.cc) form no cycle.
 
 usage: check_layers.py [ROOT]    prints the offending lines, exit code 1 if any
 """
@@ -12,14 +13,20 @@ import pathlib
 import re
 import sys
 
-LAYERS = ["base", "geometry", "mesh", "fields", "steps", "io", "simulator", "main"]
+GROUPS = [["base"], ["geometry", "solvers"], ["mesh", "scene"], ["fields"],
+          ["surface", "pressure", "viscosity"], ["transport", "dynamics"], ["io"],
+          ["simulator"], ["main"]]
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]((?:treacle/|\.)[^>"]*)[>"]')
 
 
-def layer(module):
-    """The index of the layer of a module like mesh/octree or main."""
-    name = module.split("/")[0]
-    return LAYERS.index(name) if name in LAYERS else None
+def room(module):
+    """The room of a module like mesh/octree or main."""
+    return module.split("/")[0]
+
+
+def group(name):
+    """The index of the group that a room belongs to, or None."""
+    return next((i for i, rooms in enumerate(GROUPS) if name in rooms), None)
 
 
 def includes(root):
@@ -62,20 +69,20 @@ def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent)
     problems, graph = [], {}
     for place, line, module, target in includes(root):
-        if layer(module) is None:
-            problems.append(f"{place}: \"{module}\" is in no layer ({', '.join(LAYERS)})")
-        elif layer(target) is None:
-            problems.append(f"{place}: {line}  (in no layer)")
-        elif layer(target) > layer(module):
-            problems.append(f"{place}: {line}  ({LAYERS[layer(module)]} must not know "
-                            f"{LAYERS[layer(target)]})")
+        here, there = room(module), room(target)
+        if group(here) is None:
+            problems.append(f"{place}: \"{module}\" is in no room of GROUPS")
+        elif group(there) is None:
+            problems.append(f"{place}: {line}  (in no room of GROUPS)")
+        elif here != there and group(there) >= group(here):
+            problems.append(f"{place}: {line}  ({here} must not know {there})")
         if target != module:
             graph.setdefault(module, set()).add(target)
 
     cycle = find_cycle(graph)
     if cycle:
         problems.append("cycle: " + " -> ".join(cycle))
-    print("\n".join(problems) if problems else "layers: in order")
+    print("\n".join(problems) if problems else "rooms: in order")
     return 1 if problems else 0
 
 

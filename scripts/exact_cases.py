@@ -58,19 +58,19 @@ MANUFACTURED = {"nodes, mean": 0.01, "nodes, worst": 0.02, "faces, mean": 0.01, 
 MANUFACTURED_3D = {quantity: 0.05 for quantity in MANUFACTURED}
 
 VISCOUS_CASES = {
-    "A1": Program("rigid_rotation", ("2",), 4, CONSERVED, order=None, n_levels=2),
-    "A1 3D": Program("rigid_rotation", ("3",), 4, CONSERVED, order=None, n_levels=2),
-    "A1 Armadillo": Program("rigid_rotation", ("3",), 6, CONSERVED, ARMADILLO, None, 1),
-    "A2": Program("traction_free", ("2",), 4, FACES),
-    "A3": Program("traction_free", ("3",), 4, FACES_3D, n_levels=2),
-    "A4": Program("spin_down", (), 4, {"laplacian": 0.01, "full": 0.01}),
+    "A1": Program("viscosity/rigid_rotation", ("2",), 4, CONSERVED, order=None, n_levels=2),
+    "A1 3D": Program("viscosity/rigid_rotation", ("3",), 4, CONSERVED, order=None, n_levels=2),
+    "A1 Armadillo": Program("viscosity/rigid_rotation", ("3",), 6, CONSERVED, ARMADILLO, None, 1),
+    "A2": Program("viscosity/traction_free", ("2",), 4, FACES),
+    "A3": Program("viscosity/traction_free", ("3",), 4, FACES_3D, n_levels=2),
+    "A4": Program("viscosity/spin_down", (), 4, {"laplacian": 0.01, "full": 0.01}),
     "A6": Case("layered_couette", 4, 0.0005, layered(1.81818182)),
     "A6 exponential": Case("layered_couette", 4, 0.0005, layered(4.65168706), EXPONENTIAL),
     "A6 cut": Case("layered_couette", 4, 0.0005, layered(1.81818182, 1.0125), CUT_FLOOR),
     "A6 exponential, cut": Case("layered_couette", 4, 0.0005, layered(4.65168706, 1.0125),
                                 {**EXPONENTIAL, **CUT_FLOOR}),
-    "A7": Program("manufactured", ("2",), 5, MANUFACTURED, order=1.5),
-    "A7 3D": Program("manufactured", ("3",), 4, MANUFACTURED_3D, order=1.5, n_levels=2),
+    "A7": Program("viscosity/manufactured", ("2",), 5, MANUFACTURED, order=1.5),
+    "A7 3D": Program("viscosity/manufactured", ("3",), 4, MANUFACTURED_3D, order=1.5, n_levels=2),
 }
 
 CLOSED_CASES = {

@@ -98,7 +98,7 @@ def case(file, level, time_step, exact, settings=None, tolerance=0.03, **more):
 
 def carried(body, dim, level, n_levels):
     """One period with a prescribed velocity and a CFL number of 2; no correction of the volume."""
-    return Program("markers", (body, str(dim), "{level}", "2", "marker level set", "12"), level,
+    return Program("surface/markers", (body, str(dim), "{level}", "2", "marker level set", "12"), level,
                    CARRIED, n_levels=n_levels)
 
 

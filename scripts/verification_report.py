@@ -23,7 +23,7 @@ default parameters. `scripts/verify --write CASE` measures a case again and make
 without a case it runs all. `scripts/verify CASE` prints the table alone, with
 `--set 'Section/Name=value'` to compare options; `--list` names the cases. Parameter files are in
 `prm/verification`, each with its exact values; some cases of a single viscous step are programs
-of `tests/steps`. What was measured is kept in [verification/results.json](verification/results.json).
+of `tests/`. What was measured is kept in [verification/results.json](verification/results.json).
 
 *Errors* are relative to the exact value, from the coarsest mesh to the finest: a level halves
 the leaves, and the time step with them. Those without "%" are absolute, where the exact value is
@@ -80,7 +80,7 @@ def section(letter, title, results):
 
 def table_of_case(name, result):
     case = CASES[name]
-    first = [f"[{name}](../{case.path}) {case.file.replace('_', ' ')}",
+    first = [f"[{name}](../{case.path}) {case.file.split('/')[-1].replace('_', ' ')}",
              ", ".join(map(str, result.get("levels", ())))]
     ends = [*(format_error((result.get(what) or [math.nan])[-1], False)
               for what in ("volume drift", "energy gain")),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) the Treacle authors
-"""Runs exact cases: parameter files with the program, and programs of tests/steps."""
+"""Runs exact cases: parameter files with the program, and programs of tests/."""
 
 import os
 import re
@@ -91,7 +91,7 @@ def run_case(case, levels, settings, in_time, result):
 def run_program(case, levels, settings, result):
     result["levels"], result["h"] = list(levels), [0.5 ** level for level in levels]
     start = time.monotonic()
-    program = BUILD / f"tests/steps/{case.file}.release/{case.file}.release"
+    program = BUILD / f"tests/{case.file}.release" / f"{Path(case.file).name}.release"
     errors = result["errors"] = {}
     with tempfile.TemporaryDirectory() as directory:
         (Path(directory) / "results").symlink_to(ROOT / "results")

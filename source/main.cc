@@ -2,7 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/exceptions.h>
-#include <treacle/io/parameter_file.h>
+#include <treacle/scene/parameter_file.h>
 #include <treacle/simulator.h>
 
 #include <deal.II/base/logstream.h>

@@ -4,10 +4,10 @@
 #include <treacle/base/exchange.h>
 #include <treacle/base/files.h>
 #include <treacle/simulator.h>
-#include <treacle/steps/emission.h>
-#include <treacle/steps/material_extension.h>
-#include <treacle/steps/redistance.h>
-#include <treacle/steps/remesh.h>
+#include <treacle/surface/emission.h>
+#include <treacle/surface/material_extension.h>
+#include <treacle/surface/redistance.h>
+#include <treacle/transport/remesh.h>
 
 #include <cstdio>
 #include <ostream>

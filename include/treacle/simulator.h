@@ -6,15 +6,15 @@
 
 #include <treacle/base/log.h>
 #include <treacle/base/timing.h>
+#include <treacle/dynamics/dynamics.h>
 #include <treacle/io/checkpoint.h>
 #include <treacle/io/mesh_writer.h>
 #include <treacle/io/statistics.h>
 #include <treacle/io/surface_writer.h>
 #include <treacle/mesh/imported_mesh.h>
-#include <treacle/steps/advection.h>
-#include <treacle/steps/dynamics.h>
-#include <treacle/steps/surface_tracking.h>
-#include <treacle/steps/time_step.h>
+#include <treacle/surface/surface_tracking.h>
+#include <treacle/transport/advection.h>
+#include <treacle/transport/time_step.h>
 
 namespace treacle
 {

@@ -3,7 +3,7 @@
 
 #include <treacle/base/exchange.h>
 #include <treacle/base/files.h>
-#include <treacle/io/measures.h>
+#include <treacle/dynamics/measures.h>
 #include <treacle/io/statistics.h>
 
 #include <cstdio>

@@ -4,8 +4,8 @@
 #ifndef treacle_tests_io_ball_h
 #define treacle_tests_io_ball_h
 
-#include <treacle/fields/scene.h>
 #include <treacle/fields/state.h>
+#include <treacle/scene/scene.h>
 
 namespace tests
 {

@@ -7,7 +7,7 @@
 #include <treacle/base/exceptions.h>
 #include <treacle/io/checkpoint.h>
 
-#include "../mesh/mesh_files.h"
+#include "../mesh_files.h"
 #include "../tests.h"
 
 using namespace treacle;

@@ -8,7 +8,7 @@
 #include <treacle/mesh/tracer.h>
 
 #include "../tests.h"
-#include "mesh_files.h"
+#include "../mesh_files.h"
 
 using namespace treacle;
 

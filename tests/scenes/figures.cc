@@ -4,7 +4,7 @@
 // The column and the drop of prm/figures, coarse and for a few steps, with every
 // mapping: volume, centre of mass, energy and extent on 1, 2 and 3 ranks.
 
-#include "../steps/run_scene.h"
+#include "../run_scene.h"
 #include "../tests.h"
 
 using namespace tests;

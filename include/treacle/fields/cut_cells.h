@@ -4,8 +4,8 @@
 #ifndef treacle_fields_cut_cells_h
 #define treacle_fields_cut_cells_h
 
-#include <treacle/fields/scene.h>
 #include <treacle/mesh/mesh.h>
+#include <treacle/scene/scene.h>
 
 #include <deal.II/base/array_view.h>
 

@@ -4,8 +4,8 @@
 #ifndef treacle_io_statistics_h
 #define treacle_io_statistics_h
 
+#include <treacle/dynamics/dynamics.h>
 #include <treacle/io/probes.h>
-#include <treacle/steps/dynamics.h>
 
 namespace treacle
 {

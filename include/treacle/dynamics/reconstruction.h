@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_dynamics_reconstruction_h
+#define treacle_dynamics_reconstruction_h
+
+#include <treacle/viscosity/face_fit.h>
+
+namespace treacle
+{
+  /// Node velocity, for tracing and output, from face velocity.
+  template <int dim>
+  class Reconstruction
+  {
+  public:
+    struct Parameters
+    {
+      std::string method = "face fitted";
+
+      /// Subsection Advection.
+      void
+      add_parameters(ParameterHandler &prm);
+    };
+
+    explicit Reconstruction(const Parameters &parameters)
+      : prm(parameters)
+    {}
+
+    /// Set state.v at active nodes, and within @p reach (m) of the surface in the air.
+    void
+    advance(State<dim> &state, const FaceFit<dim> &fit, const double reach) const;
+
+  private:
+    const Parameters prm;
+  };
+} // namespace treacle
+
+#endif

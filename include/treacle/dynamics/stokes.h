@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_dynamics_stokes_h
+#define treacle_dynamics_stokes_h
+
+#include <treacle/pressure/projection.h>
+#include <treacle/viscosity/hybrid.h>
+#include <treacle/viscosity/reactions.h>
+
+#include <deal.II/lac/la_parallel_block_vector.h>
+
+namespace treacle
+{
+  /// Viscosity and pressure in one solve: the least of Hybrid's energy among face velocities
+  /// that are free of divergence. With q = dt p, the outflow B u of the pressure cells and
+  /// u = (1 - s)(u* + M^-1 B^T q) + s P v there remain, for node velocity and pressure,
+  ///
+  ///   (K + P^T s M P) v - P^T s B^T q     = P^T s M u*
+  ///   -B s P v - B (1 - s) M^-1 B^T q     = B (1 - s) u*,
+  ///
+  /// symmetric and indefinite, solved by MINRES. Its preconditioner is one multigrid cycle
+  /// for the first block, and for the pressure one of the projection's matrix and one of
+  /// what viscosity makes of the Schur complement, as in Cahouet & Chabard (1988).
+  template <int dim>
+  class Coupled
+  {
+  public:
+    struct Parameters
+    {
+      double       relative_tolerance = 1e-8;
+      unsigned int maximum_iterations = 500;
+
+      void
+      add_parameters(ParameterHandler &prm);
+    };
+
+    Coupled(const Parameters                          &parameters,
+            const LinearSolver::Parameters            &viscosity_solver,
+            const NodeSystem<dim>                     &system,
+            const typename NodeSystem<dim>::Stiffness &stiffness,
+            const Projection<dim>                     &projection,
+            const double                               dt);
+
+    Coupled(const Coupled &) = delete;
+
+    /// Sets state.u, which holds u*, state.pressure, and state.v at the active nodes; returns
+    /// the number of iterations. Where the solve stagnates: changes nothing and returns
+    /// nothing.
+    std::optional<unsigned int>
+    advance(State<dim> &state, Reactions<dim> &reactions) const;
+
+  private:
+    using Pair = LinearAlgebra::distributed::BlockVector<double>; ///< of v and q
+
+    /// V / (2 mu dt) + B (1 - s) M^-1 B^T: what the Schur complement comes to where viscosity
+    /// rules.
+    std::unique_ptr<const TrilinosWrappers::SparseMatrix>
+    viscous_schur_complement() const;
+
+    /// The unknowns of v, zero where it is prescribed, into nodes; of q into cells.
+    void
+    scatter(const Pair &x) const;
+
+    void
+    vmult(Pair &y, const Pair &x) const;
+
+    void
+    precondition(Pair &z, const Pair &r) const;
+
+    Pair
+    right_hand_side(const State<dim> &state) const;
+
+    /// u from u*, v and q.
+    void
+    set_faces(State<dim> &state, const Pair &x, Reactions<dim> &reactions) const;
+
+    const Parameters         prm;
+    const NodeSystem<dim>   &system;
+    const LiquidDomain<dim> &domain;
+    const Projection<dim>   &projection;
+    const double             dt;
+    const typename NodeSystem<dim>::Stiffness stiffness;
+    const Hybrid<dim>        hybrid;
+    const LinearSolver       nodes_solver;
+    const std::unique_ptr<const TrilinosWrappers::SparseMatrix> viscous_schur;
+    const LinearSolver                                          viscous_schur_solver;
+    /// scratch
+    mutable NodeVector<dim> v;
+    mutable Vector          q, flux, force, z_viscous;
+  };
+} // namespace treacle
+
+#endif

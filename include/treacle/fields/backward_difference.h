@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_fields_backward_difference_h
+#define treacle_fields_backward_difference_h
+
+#include <treacle/fields/state.h>
+
+namespace treacle
+{
+  /// The time derivative at the end of a step, along a path:
+  /// (u^{n+1} - now u^n - before u^{n-1}) / step. Backward Euler, or BDF2 for steps of any
+  /// two sizes where the velocity of the step before is known.
+  struct BackwardDifference
+  {
+    double step; ///< s
+    double now    = 1;
+    double before = 0;
+
+    template <int dim>
+    BackwardDifference(const double dt, const State<dim> &old)
+      : step(dt)
+    {
+      // BDF2 is stable as long as a step is at most 1 + sqrt(2) times the one before
+      if (!old.before || dt > 2 * old.before->dt)
+        return;
+      const double ratio = dt / old.before->dt;
+      step               = dt * (1 + ratio) / (1 + 2 * ratio);
+      now                = (1 + ratio) * (1 + ratio) / (1 + 2 * ratio);
+      before             = -ratio * ratio / (1 + 2 * ratio);
+    }
+  };
+} // namespace treacle
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_fields_face_node_h
+#define treacle_fields_face_node_h
+
+#include <treacle/fields/liquid_domain.h>
+
+namespace treacle
+{
+  /// P: face velocity from node velocity, n·(mean over the face's nodes); exact
+  /// for linear fields at the barycentre.
+  template <int dim>
+  double
+  face_velocity(const Mesh<dim> &mesh, const NodeVector<dim> &v, const LocalIndex face);
+
+  /// Mean of v over the neighbours of an owned node where @p counts is positive, each
+  /// as often as they share a cell. Returns whether there is one.
+  template <int dim>
+  bool
+  mean_of_neighbours(const Mesh<dim>       &mesh,
+                     const NodeVector<dim> &v,
+                     const Vector          &counts,
+                     const LocalIndex       node,
+                     Tensor<1, dim>        &mean);
+
+  /// Set the prescribed components at owned nodes and update the ghosts of v.
+  template <int dim>
+  void
+  set_prescribed(const LiquidDomain<dim> &domain, NodeVector<dim> &v);
+
+  /// Node velocity in two steps (Klingner et al. 2006): that of each active cell
+  /// by least squares from all its faces, walls and solids included, then the
+  /// mean over the cells around a node, weighted by their volume. Prescribed components are
+  /// set. @p u must have up-to-date ghosts.
+  template <int dim>
+  void
+  two_step(const LiquidDomain<dim> &domain, const Vector &u, NodeVector<dim> &v);
+} // namespace treacle
+
+#endif

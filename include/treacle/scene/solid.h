@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_scene_solid_h
+#define treacle_scene_solid_h
+
+#include <treacle/geometry/motion.h>
+#include <treacle/geometry/shapes.h>
+
+#include <deal.II/base/bounding_box.h>
+
+namespace treacle
+{
+  /// An obstacle or container, at rest or in rigid motion.
+  template <int dim>
+  class Solid
+  {
+  public:
+    struct Parameters
+    {
+      typename Shape<dim>::Parameters       shape;
+      typename RigidMotion<dim>::Parameters motion;
+
+      /// Declare in the current subsection.
+      void
+      add_parameters(ParameterHandler &prm);
+    };
+
+    /// @p where names the subsection in messages.
+    Solid(const Parameters &parameters, const std::string &where, const BoundingBox<dim> &box);
+
+    /// Negative inside the solid (m).
+    double
+    signed_distance(const Point<dim> &x, const double t) const;
+
+    /// Of the solid's material at x (m/s).
+    Tensor<1, dim>
+    velocity(const Point<dim> &x, const double t) const;
+
+    /// Of its rotation (m).
+    Point<dim>
+    centre(const double t) const;
+
+    /// Throws a UserError if it moves, was in the box, and has left it at t.
+    void
+    check(const double t) const;
+
+  private:
+    const std::string      where;
+    const BoundingBox<dim> box;
+    const Shape<dim>       shape;
+    RigidMotion<dim>       motion;
+    /// Points of it that are in the box at t = 0, if it moves.
+    std::vector<Point<dim>> sample;
+  };
+} // namespace treacle
+
+#endif

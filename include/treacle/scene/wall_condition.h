@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_scene_wall_condition_h
+#define treacle_scene_wall_condition_h
+
+#include <array>
+#include <string>
+
+namespace treacle
+{
+  /// Does liquid stick to a side of the box? In the order 2 axis + upper, then the
+  /// default, which holds for all other walls; from a text like "default: no slip; left,
+  /// right: free slip". Sides that are not mentioned, by name or as "default", are no slip.
+  /// Throws a UserError that says what is wrong.
+  template <int dim>
+  std::array<bool, 2 * dim + 1>
+  parse_wall_condition(const std::string &text);
+} // namespace treacle
+
+#endif

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_solvers_linear_solver_h
+#define treacle_solvers_linear_solver_h
+
+#include <treacle/base/types.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace treacle
+{
+  /// Smooth vectors that a matrix hardly sees (owned entries, vector by vector);
+  /// without any, constants of each of n_components.
+  struct NearNullSpace
+  {
+    unsigned int        n_components = 1;
+    unsigned int        n_vectors    = 0;
+    std::vector<double> vectors;
+  };
+
+  /// As deal.II's solvers want a linear map.
+  template <typename VectorType>
+  struct Multiplies
+  {
+    std::function<void(VectorType &, const VectorType &)> vmult;
+  };
+
+  /// Throws a UserError on all ranks alike if the norm of a right-hand side is not finite;
+  /// not-a-number would pass through the solver as if there were nothing to do.
+  void
+  require_finite(const double norm, const std::string &name);
+
+  /// Conjugate gradients on a symmetric positive definite matrix or operator.
+  class LinearSolver
+  {
+  public:
+    /// Sets its first argument to a linear map of the second.
+    using Operator = std::function<void(Vector &, const Vector &)>;
+
+    struct Parameters
+    {
+      std::string  preconditioner     = "amg";
+      double       relative_tolerance = 1e-6;
+      unsigned int maximum_iterations = 1000;
+
+      /// Subsection Linear solvers / @p name. A remark goes into the documentation
+      /// of the preconditioner.
+      void
+      add_parameters(ParameterHandler  &prm,
+                     const std::string &name,
+                     const std::string &remark = "");
+    };
+
+    /// Sets up the preconditioner; the matrix must outlive this object.
+    LinearSolver(const Parameters                     &parameters,
+                 const std::string                    &name,
+                 const TrilinosWrappers::SparseMatrix &matrix,
+                 const NearNullSpace                  &null_space = NearNullSpace());
+
+    /// For an operator that is no matrix, with its preconditioner.
+    LinearSolver(const Parameters  &parameters,
+                 const std::string &name,
+                 const Operator    &matrix,
+                 const Operator    &preconditioner);
+
+    /// Improve x until |b - A x| <= tolerance |b|. Returns the number of
+    /// iterations. Throws a UserError where it does not get there.
+    unsigned int
+    solve(Vector &x, const Vector &b) const;
+
+    /// z = the preconditioner times r.
+    void
+    precondition(Vector &z, const Vector &r) const
+    {
+      preconditioner(z, r);
+    }
+
+  private:
+    const Parameters  prm;
+    const std::string name;
+    NearNullSpace     null_space;
+    Operator          matrix;
+    Operator          preconditioner;
+  };
+} // namespace treacle
+
+#endif

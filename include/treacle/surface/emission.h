@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_surface_emission_h
+#define treacle_surface_emission_h
+
+#include <treacle/fields/liquid_domain.h>
+
+namespace treacle
+{
+  /// Fills the emitters that were at work in the step of size @p dt that ends at
+  /// state.time: level set and carried material. The skin of a stream along the wall it comes from, and
+  /// markers in emitters, are removed. Returns the volume that flowed in
+  /// (m^dim), which is less than the emitter's volume rate where the liquid around
+  /// it takes part in the motion. Collective.
+  template <int dim>
+  double
+  emit(State<dim> &state, const Scene<dim> &scene, const double dt);
+} // namespace treacle
+
+#endif

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_surface_surface_distance_h
+#define treacle_surface_surface_distance_h
+
+#include <treacle/surface/surface.h>
+
+#include <deal.II/numerics/rtree.h>
+
+namespace treacle
+{
+  /// Nearest points on the surface phi = 0 of all ranks, within a given reach.
+  /// Where the surface ends on the box it goes on beyond it as a plane, so that
+  /// the distance from a flat surface is linear at a wall too.
+  template <int dim>
+  class SurfaceDistance
+  {
+  public:
+    /// Collective: each rank receives the facets within @p reach (m) of its leaves.
+    SurfaceDistance(const Mesh<dim> &mesh, const Vector &phi, const double reach);
+
+    struct Nearest
+    {
+      Point<dim> point;    ///< in the box
+      double     distance; ///< m, not signed; infinite if beyond the reach
+    };
+
+    Nearest
+    nearest(const Point<dim> &x) const;
+
+    const double reach;
+
+  private:
+    using Facet = std::array<Point<dim>, dim>;
+
+    double
+    distance_beyond_box(const Point<dim> &x, const Point<dim> &nearest, const Facet &facet) const;
+
+    const BoundingBox<dim> box;
+
+    std::vector<Facet>                             facets;
+    RTree<std::pair<BoundingBox<dim>, unsigned int>> tree;
+    BoundingBox<dim>                               bounds; ///< of all facets
+  };
+} // namespace treacle
+
+#endif

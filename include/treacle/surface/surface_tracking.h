@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_surface_surface_tracking_h
+#define treacle_surface_surface_tracking_h
+
+#include <treacle/fields/liquid_domain.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+namespace treacle
+{
+  /// Mends phi after it was advected: its place by the markers, distances, and the volume.
+  template <int dim>
+  class SurfaceTracking
+  {
+  public:
+    struct Parameters
+    {
+      std::string  method            = "marker level set";
+      unsigned int markers_per_cell  = 12;
+      bool         volume_correction = true;
+
+      void
+      add_parameters(ParameterHandler &prm);
+    };
+
+    explicit SurfaceTracking(const Parameters &parameters)
+      : prm(parameters)
+    {}
+
+    /// @p state has phi and markers of the new time. Distances within @p reach (m);
+    /// with volume correction the surface is moved to restore @p volume (m^dim).
+    void
+    advance(State<dim> &state, const Scene<dim> &scene, const double reach, const double volume) const;
+
+    /// Markers, if there are to be any, on a surface that has too few.
+    void
+    reseed(State<dim> &state, const Scene<dim> &scene) const;
+
+  private:
+    bool
+    has_markers() const
+    {
+      return prm.method == "marker level set";
+    }
+
+    void
+    correct_volume(State<dim> &state, const Scene<dim> &scene, const double volume) const;
+
+    const Parameters prm;
+  };
+} // namespace treacle
+
+#endif

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_transport_advection_h
+#define treacle_transport_advection_h
+
+#include <treacle/fields/backward_difference.h>
+#include <treacle/fields/liquid_domain.h>
+#include <treacle/surface/smooth_level_set.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+namespace treacle
+{
+  /// Semi-Lagrangian advection from the old state into a new or the same mesh, of the
+  /// velocity also after MacCormack (Selle et al. 2008): what is lost on the way back and
+  /// forth is added to it, within the bounds of the cell that it is read from.
+  template <int dim>
+  class Advection
+  {
+  public:
+    struct Parameters
+    {
+      std::string scheme = "semi-Lagrangian";
+
+      /// Subsection Advection.
+      void
+      add_parameters(ParameterHandler &prm);
+    };
+
+    /// By a step of size dt.
+    Advection(const Parameters        &parameters,
+              const State<dim>        &old,
+              const LiquidDomain<dim> &domain,
+              const double             dt);
+
+    /// The state at old.time + dt: phi, carried material, and u within @p reach (m)
+    /// of the liquid, which is what the backward difference starts from.
+    State<dim>
+    advance(std::shared_ptr<const Mesh<dim>> mesh, const double reach) const;
+
+    /// The old velocity at the nodes of the new mesh, for the next backward difference.
+    VelocityBefore<dim>
+    velocity_before(const Mesh<dim> &mesh) const;
+
+    /// Where points of the surface are after dt.
+    std::vector<Point<dim>>
+    move_surface(const std::vector<Point<dim>> &x) const;
+
+    /// The markers after dt, still on the ranks they came from.
+    std::vector<Marker<dim>>
+    move_markers() const;
+
+    /// phi at points of the new time.
+    std::vector<double>
+    level_set(const std::vector<Point<dim>> &x) const;
+
+  private:
+    /// Values of old node fields, by the scheme, at points from which @p velocity
+    /// carries them on: [point * fields + field].
+    std::vector<double>
+    carried(const std::vector<const Vector *> &fields,
+            const NodeVector<dim>             &velocity,
+            const std::vector<Point<dim>>     &from,
+            const double                       dt,
+            const double                       reach) const;
+
+    void
+    advance_nodes(State<dim> &state, const double reach) const;
+
+    void
+    advance_faces(State<dim> &state, const double reach) const;
+
+    const Parameters         prm;
+    const State<dim>        &old;
+    const double             dt;
+    const BackwardDifference difference;
+    /// At nodes, in the middle of the step if the velocity before is known.
+    const NodeVector<dim>     velocity;
+    const NodeVector<dim>     surface_velocity; ///< what moves the surface, and material
+    const SmoothLevelSet<dim> phi;
+  };
+} // namespace treacle
+
+#endif

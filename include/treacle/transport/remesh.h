@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_transport_remesh_h
+#define treacle_transport_remesh_h
+
+#include <treacle/mesh/band.h>
+#include <treacle/scene/scene.h>
+#include <treacle/transport/advection.h>
+
+namespace treacle
+{
+  /// What a leaf costs in the partition: most cells, and all of the surface,
+  /// stand on the finest leaves.
+  template <int dim>
+  unsigned int
+  leaf_weight(const Leaf<dim> &leaf)
+  {
+    return leaf.size == 2 ? 4 : 2;
+  }
+
+  /// A mesh for the liquids of the scene at t = 0. Collective.
+  template <int dim>
+  std::shared_ptr<const Mesh<dim>>
+  initial_mesh(const MPI_Comm                         &comm,
+               const typename Octree<dim>::Parameters &parameters,
+               const Scene<dim>                       &scene);
+
+  /// The mesh for the surface after dt: the old one while the surface stays well
+  /// inside its finest leaves, else a new one around it; from a file always the old one.
+  /// @p markers are those after dt. Emitters that have not stopped are surrounded by
+  /// finest leaves as the surface is. Collective.
+  template <int dim>
+  std::shared_ptr<const Mesh<dim>>
+  mesh_for_next_surface(const State<dim>               &state,
+                        const Scene<dim>               &scene,
+                        const Advection<dim>           &advection,
+                        const std::vector<Marker<dim>> &markers,
+                        const double                    dt);
+} // namespace treacle
+
+#endif

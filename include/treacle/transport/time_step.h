@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_transport_time_step_h
+#define treacle_transport_time_step_h
+
+#include <treacle/fields/liquid_domain.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+namespace treacle
+{
+  /// Chooses dt: bounded by the CFL number, the maximum, and the next frame.
+  template <int dim>
+  class TimeStep
+  {
+  public:
+    struct Parameters
+    {
+      double end_time       = 1;
+      double frame_interval = 0.04;
+      double cfl            = 3;
+      double maximum        = 0.04;
+
+      std::string scheme = "BDF2";
+
+      void
+      add_parameters(ParameterHandler &prm);
+    };
+
+    explicit TimeStep(const Parameters &parameters)
+      : prm(parameters)
+    {}
+
+    /// Size of the step from state.time (s); steps end exactly on frames.
+    double
+    next(const State<dim> &state, const LiquidDomain<dim> &domain, const unsigned int frame) const;
+
+    /// How far from the surface velocity and distance must be known for a step (m).
+    double
+    reach(const Mesh<dim> &mesh) const;
+
+    /// The velocity of the step before is part of the state then.
+    bool
+    is_second_order() const
+    {
+      return prm.scheme == "BDF2";
+    }
+
+    double
+    frame_time(const unsigned int frame) const
+    {
+      return std::min(frame * prm.frame_interval, prm.end_time);
+    }
+
+    /// The last frame's number.
+    unsigned int
+    n_frames() const
+    {
+      return static_cast<unsigned int>(std::ceil(prm.end_time / prm.frame_interval - 1e-9));
+    }
+
+  private:
+    const Parameters prm;
+  };
+
+  /// Largest speed of an active node over all ranks (m/s).
+  template <int dim>
+  double
+  maximum_speed(const State<dim> &state, const LiquidDomain<dim> &domain);
+} // namespace treacle
+
+#endif

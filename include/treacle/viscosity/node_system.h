@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_viscosity_node_system_h
+#define treacle_viscosity_node_system_h
+
+#include <treacle/fields/liquid_domain.h>
+#include <treacle/fields/numbering.h>
+#include <treacle/solvers/linear_solver.h>
+
+namespace treacle
+{
+  /// Linear systems for the velocity at the active nodes, dim rows a node.
+  /// Prescribed components are eliminated symmetrically: their rows hold the
+  /// diagonal alone. Each rank assembles the rows of its own nodes, for it
+  /// knows all the cells around them.
+  template <int dim>
+  class NodeSystem
+  {
+  public:
+    explicit NodeSystem(const LiquidDomain<dim> &domain);
+
+    NodeSystem(const NodeSystem &) = delete;
+
+    /// Which mass a matrix holds: none, the lumped one of the nodes (M), or that of
+    /// the faces seen from the nodes (P^T M_f P).
+    enum class Mass
+    {
+      none,
+      nodes,
+      faces
+    };
+
+    /// Weights of the two terms in each cell; an empty one is zero. In a cell that a
+    /// solid cuts they are for its open part, whose strain takes the wall into account. For -dt D they
+    /// are dt mu V: of the strain for the full stress, of the gradient for
+    /// div(mu grad v).
+    struct Stiffness
+    {
+      std::vector<double> strain;   ///< of 2 e:e'
+      std::vector<double> gradient; ///< of grad v : grad v'
+    };
+
+    struct Assembled
+    {
+      std::unique_ptr<TrilinosWrappers::SparseMatrix> matrix;
+      /// What the prescribed values contribute to the right-hand side.
+      Vector shift;
+    };
+
+    /// The sum of a mass and a stiffness. Without strain and P^T M_f P the
+    /// components are decoupled, and so are they in the matrix.
+    Assembled
+    assemble(const Mass mass, const Stiffness &stiffness) const
+    {
+      return assemble(mass, stiffness, domain.face_mass);
+    }
+
+    /// With another weight of each face in the place of M_f.
+    Assembled
+    assemble(const Mass                 mass,
+             const Stiffness           &stiffness,
+             const std::vector<double> &face_mass) const;
+
+    /// The unknowns of v, prescribed components set.
+    Vector
+    unknowns(const NodeVector<dim> &v) const;
+
+    /// Write x to the active nodes of v and update its ghosts.
+    void
+    to_nodes(const Vector &x, NodeVector<dim> &v) const;
+
+    /// Right-hand side from the mass times velocity of free components, and the
+    /// shift; prescribed components receive diagonal times value.
+    Vector
+    right_hand_side(const std::vector<Tensor<1, dim>> &momentum, const Assembled &assembled) const;
+
+    /// P^T M_f u at owned nodes (kg m/s).
+    std::vector<Tensor<1, dim>>
+    face_momentum(const Vector &u) const
+    {
+      return face_momentum(u, domain.face_mass);
+    }
+
+    std::vector<Tensor<1, dim>>
+    face_momentum(const Vector &u, const std::vector<double> &face_mass) const;
+
+    /// Active and owned, in the order of the rows.
+    const std::vector<LocalIndex> &
+    nodes() const
+    {
+      return owned_nodes;
+    }
+
+    /// Motions without stress, zero at prescribed components: the rigid ones, or
+    /// translations alone where there is no strain term.
+    NearNullSpace
+    stress_free_motions(const Stiffness &stiffness) const;
+
+    const LiquidDomain<dim> &domain;
+
+  private:
+    void
+    assemble_node(const Mass                   mass,
+                  const Stiffness             &stiffness,
+                  const std::vector<double>   &face_mass,
+                  const LocalIndex             node,
+                  std::vector<LocalIndex>     &columns,
+                  std::vector<Tensor<2, dim>> &blocks,
+                  Tensor<1, dim>              &wall_force) const;
+
+    const Numbering                 numbering; ///< of the active nodes
+    const std::vector<LocalIndex>  &owned_nodes;
+    const std::vector<GlobalIndex> &number;
+    const IndexSet                 &rows;
+    std::vector<unsigned int>       row_lengths;
+    mutable std::vector<LocalIndex> slot; ///< scratch: node -> place in columns
+  };
+} // namespace treacle
+
+#endif

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_viscosity_viscosity_h
+#define treacle_viscosity_viscosity_h
+
+#include <treacle/viscosity/face_fit.h>
+#include <treacle/viscosity/reactions.h>
+
+namespace treacle
+{
+  /// The implicit viscous step, a nodal finite volume method (Batty & Houston
+  /// 2011, section 4): `(M - dt D) v = M v_old` at the nodes, carried between
+  /// face and node velocity by a mapping, or the same in the velocity of the faces.
+  template <int dim>
+  class Viscosity
+  {
+  public:
+    struct Parameters
+    {
+      std::string              mapping           = "hybrid";
+      std::string              stress_model      = "full";
+      std::string              element_weighting = "liquid fraction";
+      std::string              solid_walls       = "cut cells";
+      LinearSolver::Parameters solver;
+
+      void
+      add_parameters(ParameterHandler &prm);
+    };
+
+    explicit Viscosity(const Parameters &parameters)
+      : prm(parameters)
+    {}
+
+    /// Changes state.u, and state.v of the active nodes. Returns the number of
+    /// iterations of the implicit solve. The fit belongs to the same surface. Adds what
+    /// holds the prescribed nodes to @p reactions, if there are such.
+    unsigned int
+    advance(State<dim>         &state,
+            const FaceFit<dim> &fit,
+            const double        dt,
+            Reactions<dim>     *reactions = nullptr) const;
+
+    /// dt mu V of each cell, in the term that the stress model has.
+    typename NodeSystem<dim>::Stiffness
+    stiffness(const LiquidDomain<dim> &domain, const double dt) const;
+
+  private:
+    unsigned int
+    advance_face_fitted(State<dim>         &state,
+                        const FaceFit<dim> &fit,
+                        const double        dt,
+                        Reactions<dim>     *reactions) const;
+
+    unsigned int
+    advance_hybrid(State<dim>         &state,
+                   const FaceFit<dim> &fit,
+                   const double        dt,
+                   Reactions<dim>     *reactions) const;
+
+    unsigned int
+    advance_nodes(State<dim>         &state,
+                  const FaceFit<dim> &fit,
+                  const double        dt,
+                  Reactions<dim>     *reactions) const;
+
+    unsigned int
+    advance_face_coupled(State<dim>         &state,
+                         const FaceFit<dim> &fit,
+                         const double        dt,
+                         Reactions<dim>     *reactions) const;
+
+    const Parameters prm;
+  };
+} // namespace treacle
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/dynamics/reconstruction.h>
+#include <treacle/surface/extrapolation.h>
+#include <treacle/viscosity/least_squares.h>
+
+namespace treacle
+{
+  template <int dim>
+  void
+  Reconstruction<dim>::Parameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Advection");
+    prm.add_parameter("Reconstruction",
+                      method,
+                      "Node velocity from face velocity: the fit that is exact for rigid motions, "
+                      "least squares at each node, or least squares in each cell and means "
+                      "of these at the nodes.",
+                      Patterns::Selection("face fitted|least squares|two step"));
+    prm.leave_subsection();
+  }
+
+  namespace
+  {
+    /// There are oscillations of the node velocity that hardly any face feels. Traced to
+    /// between the nodes they come back as face velocity, and inviscid flows gain energy.
+    /// A strain energy this large holds them down; fitting once more to what it took from
+    /// the faces gives smooth flows back to fourth order in h.
+    template <int dim>
+    void
+    fit_smoothly(const FaceFit<dim> &fit, const Vector &u, NodeVector<dim> &v)
+    {
+      const LiquidDomain<dim> &domain = fit.domain;
+      const FaceFit<dim>       smooth(fit, 0.15);
+      smooth.solve(u, v);
+      Vector again = u;
+      again.zero_out_ghost_values();
+      for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
+        if (domain.is_liquid_face(f))
+          again.local_element(f) +=
+            u.local_element(f) - face_velocity(domain.mesh, v, f);
+      again.update_ghost_values();
+      smooth.solve(again, v);
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  Reconstruction<dim>::advance(State<dim> &state, const FaceFit<dim> &fit, const double reach) const
+  {
+    if (prm.method == "face fitted")
+      fit_smoothly(fit, state.u, state.v);
+    else if (prm.method == "two step")
+      two_step(fit.domain, state.u, state.v);
+    else
+      LeastSquares<dim>(fit.domain).apply(state.u, state.v);
+    extrapolate(state, fit.domain, reach);
+  }
+
+  template class Reconstruction<2>;
+  template class Reconstruction<3>;
+} // namespace treacle

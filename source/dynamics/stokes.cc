@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exceptions.h>
+#include <treacle/dynamics/stokes.h>
+#include <treacle/fields/face_node.h>
+
+#include <deal.II/lac/solver_minres.h>
+
+namespace treacle
+{
+  namespace
+  {
+    /// Of mu dt over rho h^2: less than this is none.
+    constexpr double least_viscosity = 1e-12;
+  } // namespace
+
+  template <int dim>
+  void
+  Coupled<dim>::Parameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Linear solvers");
+    prm.enter_subsection("Coupled");
+    prm.add_parameter("Relative tolerance",
+                      relative_tolerance,
+                      "Of the solve for velocity and pressure together: norm of the preconditioned "
+                      "residual over that of the right-hand side.",
+                      Patterns::Double(1e-15, 0.1));
+    prm.add_parameter("Maximum iterations",
+                      maximum_iterations,
+                      "A step that needs more is taken by split with first projection.",
+                      Patterns::Integer(1));
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+
+  template <int dim>
+  Coupled<dim>::Coupled(const Parameters                          &parameters,
+                        const LinearSolver::Parameters            &viscosity_solver,
+                        const NodeSystem<dim>                     &system,
+                        const typename NodeSystem<dim>::Stiffness &stiffness,
+                        const Projection<dim>                     &projection,
+                        const double                               dt)
+    : prm(parameters)
+    , system(system)
+    , domain(system.domain)
+    , projection(projection)
+    , dt(dt)
+    , stiffness(stiffness)
+    , hybrid(system, stiffness, dt, Hybrid<dim>::Faces::coupled)
+    , nodes_solver(viscosity_solver,
+                   "Viscosity",
+                   *hybrid.stiff.matrix,
+                   system.stress_free_motions(stiffness))
+    , viscous_schur(viscous_schur_complement())
+    , viscous_schur_solver(viscosity_solver, "Viscosity", *viscous_schur)
+    , v(domain.mesh.nodes)
+    , q(domain.mesh.zeros(domain.mesh.cells))
+    , flux(domain.mesh.zeros(domain.mesh.faces))
+    , force(domain.mesh.zeros(domain.mesh.faces))
+    , z_viscous(projection.pressure_rows(), domain.mesh.communicator())
+  {}
+
+  template <int dim>
+  std::unique_ptr<const TrilinosWrappers::SparseMatrix>
+  Coupled<dim>::viscous_schur_complement() const
+  {
+    const Mesh<dim>    &mesh = domain.mesh;
+    std::vector<double> mass;
+    for (const LocalIndex c : projection.cells())
+      {
+        double open = 0, all = 0; // squares of areas
+        for (const LocalIndex f : mesh.cell_faces[c])
+          {
+            open += std::pow(domain.open_fraction[f] * mesh.face_area[f], 2);
+            all += std::pow(mesh.face_area[f], 2);
+          }
+        // little goes out of a cell that solids or emitters all but close
+        const double volume = std::min(domain.open_volume(c), open / all * mesh.cell_volume[c]);
+        const double mu_dt =
+          std::max(domain.viscosity[c] * dt,
+                   least_viscosity * domain.density[c] * std::pow(mesh.cell_size[c], 2));
+        mass.push_back(volume / (2 * mu_dt));
+      }
+    return projection.assemble(
+      [this](const LocalIndex f) { return (1 - hybrid.share[f]) / domain.face_mass[f]; }, mass);
+  }
+
+  template <int dim>
+  void
+  Coupled<dim>::scatter(const Pair &x) const
+  {
+    const auto &nodes = system.nodes();
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        v.component[d].local_element(nodes[i]) =
+          domain.constrained[nodes[i]] >> d & 1 ? 0. : x.block(0).local_element(dim * i + d);
+    v.update_ghost_values();
+    projection.to_cells(x.block(1), q);
+  }
+
+  template <int dim>
+  void
+  Coupled<dim>::vmult(Pair &y, const Pair &x) const
+  {
+    const Mesh<dim> &mesh = domain.mesh;
+    hybrid.stiff.matrix->vmult(y.block(0), x.block(0));
+    scatter(x);
+    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
+      {
+        double push = 0, u = 0; // B^T q, s P v + (1 - s) M^-1 B^T q
+        if (domain.is_liquid_face(f) && projection.is_unknown(f))
+          {
+            const double s = hybrid.share[f];
+            push           = projection.force(f, q);
+            u = s * face_velocity(mesh, v, f) + (1 - s) / domain.face_mass[f] * push;
+          }
+        force.local_element(f) = push;
+        flux.local_element(f)  = u;
+      }
+    force.update_ghost_values();
+    flux.update_ghost_values();
+    const auto  pushed = system.face_momentum(force, hybrid.share);
+    const auto &nodes  = system.nodes();
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        if ((domain.constrained[nodes[i]] >> d & 1) == 0)
+          y.block(0).local_element(dim * i + d) -= pushed[nodes[i]][d];
+    const auto &cells = projection.cells();
+    for (unsigned int i = 0; i < cells.size(); ++i)
+      y.block(1).local_element(i) = -projection.linear_outflow(cells[i], flux);
+  }
+
+  template <int dim>
+  void
+  Coupled<dim>::precondition(Pair &z, const Pair &r) const
+  {
+    nodes_solver.precondition(z.block(0), r.block(0));
+    projection.precondition(z.block(1), r.block(1));
+    viscous_schur_solver.precondition(z_viscous, r.block(1));
+    z.block(1) += z_viscous;
+  }
+
+  template <int dim>
+  typename Coupled<dim>::Pair
+  Coupled<dim>::right_hand_side(const State<dim> &state) const
+  {
+    const Mesh<dim> &mesh = domain.mesh;
+    Pair             b(2);
+    b.block(0) = hybrid.right_hand_side(state.u, state.v);
+    b.block(1).reinit(projection.pressure_rows(), mesh.communicator());
+    b.collect_sizes();
+
+    // (1 - s) u* + s P v of the prescribed components alone
+    const auto &nodes = system.nodes();
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        v.component[d].local_element(nodes[i]) =
+          domain.constrained[nodes[i]] >> d & 1 ? domain.prescribed[nodes[i]][d] : 0.;
+    v.update_ghost_values();
+    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
+      flux.local_element(f) = domain.is_liquid_face(f) ?
+                                (1 - hybrid.share[f]) * state.u.local_element(f) +
+                                  hybrid.share[f] * face_velocity(mesh, v, f) :
+                                state.u.local_element(f);
+    flux.update_ghost_values();
+    const auto &cells = projection.cells();
+    for (unsigned int i = 0; i < cells.size(); ++i)
+      b.block(1).local_element(i) = projection.outflow(domain, cells[i], flux);
+    projection.balance(b.block(1));
+    return b;
+  }
+
+  template <int dim>
+  void
+  Coupled<dim>::set_faces(State<dim> &state, const Pair &x, Reactions<dim> &reactions) const
+  {
+    const Mesh<dim> &mesh = domain.mesh;
+    projection.to_cells(x.block(1), q);
+    const Vector q_beyond = projection.extended(q);
+    system.to_nodes(x.block(0), state.v);
+    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
+      if (domain.is_liquid_face(f))
+        state.u.local_element(f) += projection.impulse(f, q, q_beyond);
+    state.u.update_ghost_values();
+    // on what is prescribed pressure acts by itself
+    hybrid.drag_faces(state, stiffness, &reactions);
+    for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+      state.pressure.local_element(c) = q.local_element(c) / dt;
+    state.pressure.update_ghost_values();
+  }
+
+  template <int dim>
+  std::optional<unsigned int>
+  Coupled<dim>::advance(State<dim> &state, Reactions<dim> &reactions) const
+  {
+    projection.set_walls(state.u);
+    const Pair b = right_hand_side(state);
+    Pair       x(b), z(b);
+    precondition(z, b);
+    require_finite(b.l2_norm(), "Coupled");
+    const double squared_norm = b * z;
+    if (b.l2_norm() > 0 && !(squared_norm > 0)) // the preconditioner is of no use
+      return {};
+    const double norm = std::sqrt(squared_norm);
+    x.block(0)        = system.unknowns(state.v);
+    const auto &cells = projection.cells();
+    for (unsigned int i = 0; i < cells.size(); ++i)
+      x.block(1).local_element(i) = state.pressure.local_element(cells[i]) * dt;
+    SolverControl      control(prm.maximum_iterations, prm.relative_tolerance * norm);
+    SolverMinRes<Pair> solver(control);
+    try
+      {
+        if (norm == 0)
+          x = 0;
+        else
+          solver.solve(Multiplies<Pair>{[&](Pair &y, const Pair &p) { vmult(y, p); }},
+                       x,
+                       b,
+                       Multiplies<Pair>{[&](Pair &y, const Pair &r) { precondition(y, r); }});
+      }
+    catch (const SolverControl::NoConvergence &)
+      {
+        return {};
+      }
+    projection.take_off_mean(x.block(1));
+    set_faces(state, x, reactions);
+    return norm == 0 ? 0 : control.last_step();
+  }
+
+  template class Coupled<2>;
+  template class Coupled<3>;
+} // namespace treacle

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exceptions.h>
+#include <treacle/scene/emitter.h>
+
+namespace treacle
+{
+  template <int dim>
+  void
+  Emitter<dim>::Parameters::add_parameters(ParameterHandler &prm)
+  {
+    shape.add_parameters(prm);
+    prm.add_parameter("Velocity",
+                      velocity,
+                      std::string("Of the liquid inside (m/s); a formula in ") +
+                        (dim == 2 ? "x,y,t" : "x,y,z,t") +
+                        " per component, separated by semicolons.");
+    prm.add_parameter("Start time", start_time, "When it begins to emit (s).");
+    prm.add_parameter("Stop time", stop_time, "When it ends (s).");
+    material.add_parameters(prm, "; as in Material if empty (Transport = advected).");
+  }
+
+  template <int dim>
+  Emitter<dim>::Emitter(const Parameters    &prm,
+                        const std::string   &where,
+                        const Material<dim> &otherwise)
+    : where(where)
+    , material(prm.material, where, &otherwise)
+    , start_time(prm.start_time)
+    , stop_time(prm.stop_time)
+    , shape(prm.shape, where)
+    , velocity_at(prm.velocity, where + "/Velocity")
+  {
+    require(start_time < stop_time, where + "/Stop time must be later than its Start time.");
+  }
+
+  template <int dim>
+  Tensor<1, dim>
+  Emitter<dim>::velocity(const Point<dim> &x, const double t) const
+  {
+    const Tensor<1, dim> value = velocity_at(x, t);
+    if (!std::isfinite(value.norm_square()))
+      value_error(where + "/Velocity", value.norm(), "finite", x, t);
+    return value;
+  }
+
+  template class Emitter<2>;
+  template class Emitter<3>;
+} // namespace treacle

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exceptions.h>
+#include <treacle/scene/solid.h>
+
+namespace treacle
+{
+  template <int dim>
+  void
+  Solid<dim>::Parameters::add_parameters(ParameterHandler &prm)
+  {
+    shape.add_parameters(prm);
+    motion.add_parameters(prm);
+  }
+
+  namespace
+  {
+    /// A grid of points of the box, 33 in each direction.
+    template <int dim>
+    std::vector<Point<dim>>
+    grid(const BoundingBox<dim> &box)
+    {
+      constexpr unsigned int  n = 33;
+      std::vector<Point<dim>> points;
+      for (unsigned int k = 0; k < (dim == 2 ? n * n : n * n * n); ++k)
+        {
+          Point<dim>   x;
+          unsigned int code = k;
+          for (unsigned int d = 0; d < dim; ++d, code /= n)
+            x[d] = box.lower_bound(d) + (code % n) * box.side_length(d) / (n - 1.);
+          points.push_back(x);
+        }
+      return points;
+    }
+  } // namespace
+
+  template <int dim>
+  Solid<dim>::Solid(const Parameters       &prm,
+                    const std::string      &where,
+                    const BoundingBox<dim> &box)
+    : where(where)
+    , box(box)
+    , shape(prm.shape, where)
+    , motion(prm.motion, where)
+  {
+    if (!motion.is_moving())
+      return;
+    const Pose<dim> &pose = motion.at(0);
+    for (const Point<dim> &x : grid(box))
+      if (shape.signed_distance(pose.at_start(x)) < 0)
+        sample.push_back(pose.at_start(x));
+    // what is smaller than the grid
+    if (sample.empty() && box.point_inside(pose.now(prm.shape.centre)) &&
+        shape.signed_distance(prm.shape.centre) < 0)
+      sample.push_back(prm.shape.centre);
+  }
+
+  template <int dim>
+  double
+  Solid<dim>::signed_distance(const Point<dim> &x, const double t) const
+  {
+    return shape.signed_distance(motion.is_moving() ? motion.at(t).at_start(x) : x);
+  }
+
+  template <int dim>
+  Tensor<1, dim>
+  Solid<dim>::velocity(const Point<dim> &x, const double t) const
+  {
+    return motion.is_moving() ? motion.at(t).velocity_at(x) : Tensor<1, dim>();
+  }
+
+  template <int dim>
+  Point<dim>
+  Solid<dim>::centre(const double t) const
+  {
+    const Pose<dim> &pose = motion.at(t);
+    return pose.start + pose.shift;
+  }
+
+  template <int dim>
+  void
+  Solid<dim>::check(const double t) const
+  {
+    if (sample.empty())
+      return;
+    const Pose<dim> &pose = motion.at(t);
+    require(std::any_of(sample.begin(),
+                        sample.end(),
+                        [&](const Point<dim> &x) { return box.point_inside(pose.now(x)); }),
+            where + " has left the box at t = " + digits(t) +
+              " s: change its motion, stop the run earlier (End time), or enlarge the box "
+              "(Domain/Lower corner and Upper corner).");
+  }
+
+  template class Solid<2>;
+  template class Solid<3>;
+} // namespace treacle

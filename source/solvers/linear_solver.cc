@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exceptions.h>
+#include <treacle/solvers/linear_solver.h>
+
+#include <deal.II/lac/solver_cg.h>
+
+#include <Teuchos_ParameterList.hpp>
+#include <ml_MultiLevelPreconditioner.h>
+#include <ml_utils.h>
+
+#include <sstream>
+
+namespace treacle
+{
+  void
+  LinearSolver::Parameters::add_parameters(ParameterHandler  &prm,
+                                           const std::string &name,
+                                           const std::string &remark)
+  {
+    prm.enter_subsection("Linear solvers");
+    prm.enter_subsection(name);
+    prm.add_parameter("Preconditioner",
+                      preconditioner,
+                      "Of the conjugate gradient method: algebraic multigrid, incomplete "
+                      "Cholesky factorization, diagonal, none." +
+                        remark,
+                      Patterns::Selection("amg|incomplete cholesky|jacobi|none"));
+    prm.add_parameter("Relative tolerance",
+                      relative_tolerance,
+                      "Norm of the residual over that of the right-hand side.",
+                      Patterns::Double(1e-15, 0.1));
+    prm.add_parameter("Maximum iterations",
+                      maximum_iterations,
+                      "A solve that needs more is an error.",
+                      Patterns::Integer(1));
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+
+  namespace
+  {
+    std::shared_ptr<TrilinosWrappers::PreconditionBase>
+    make_amg(const TrilinosWrappers::SparseMatrix &matrix, NearNullSpace &null_space)
+    {
+      Teuchos::ParameterList list;
+      ML_Epetra::SetDefaults("SA", list);
+      list.set("ML output", 0);
+      // from random numbers, each time the same: a resumed run must be the same bit for bit.
+      // "Anorm" bounds eigenvalues from far above: up to twice the iterations
+      list.set("eigen-analysis: type", "cg");
+      ML_set_random_seed(1 + Utilities::MPI::this_mpi_process(matrix.get_mpi_communicator()));
+      list.set("prec type", "MGW"); // MGV: iterations grow with the level
+      list.set("smoother: type", "Chebyshev");
+      list.set("smoother: sweeps", 2);
+      list.set("smoother: Chebyshev alpha", 10.);
+      list.set("aggregation: type", "Uncoupled");
+      list.set("aggregation: threshold", 1e-4);
+      list.set("coarse: max size", 2000);
+      list.set("coarse: type", "Amesos-KLU");
+      list.set("PDE equations", static_cast<int>(null_space.n_components));
+      // ML wants a pointer even on a rank without rows
+      static double nothing = 0;
+      if (null_space.n_vectors > 0)
+        {
+          list.set("null space: type", "pre-computed");
+          list.set("null space: dimension", static_cast<int>(null_space.n_vectors));
+          list.set("null space: vectors",
+                   null_space.vectors.empty() ? &nothing : null_space.vectors.data());
+        }
+      auto amg = std::make_shared<TrilinosWrappers::PreconditionAMG>();
+      amg->initialize(matrix, list);
+      return amg;
+    }
+  } // namespace
+
+  LinearSolver::LinearSolver(const Parameters                     &parameters,
+                             const std::string                    &name,
+                             const TrilinosWrappers::SparseMatrix &matrix,
+                             const NearNullSpace                  &null_space)
+    : prm(parameters)
+    , name(name)
+    , null_space(null_space)
+    , matrix([&matrix](Vector &y, const Vector &x) { matrix.vmult(y, x); })
+  {
+    if (matrix.m() == 0)
+      {
+        preconditioner = [](Vector &z, const Vector &r) { z = r; };
+        return;
+      }
+    const auto use = [&](const auto p) {
+      preconditioner = [p](Vector &z, const Vector &r) { p->vmult(z, r); };
+    };
+    const auto make = [&](const auto p) {
+      p->initialize(matrix);
+      use(p);
+    };
+    if (prm.preconditioner == "amg")
+      use(make_amg(matrix, this->null_space));
+    else if (prm.preconditioner == "incomplete cholesky")
+      make(std::make_shared<TrilinosWrappers::PreconditionIC>());
+    else if (prm.preconditioner == "jacobi")
+      make(std::make_shared<TrilinosWrappers::PreconditionJacobi>());
+    else
+      make(std::make_shared<TrilinosWrappers::PreconditionIdentity>());
+  }
+
+  LinearSolver::LinearSolver(const Parameters  &parameters,
+                             const std::string &name,
+                             const Operator    &matrix,
+                             const Operator    &preconditioner)
+    : prm(parameters)
+    , name(name)
+    , matrix(matrix)
+    , preconditioner(preconditioner)
+  {}
+
+  void
+  require_finite(const double norm, const std::string &name)
+  {
+    require(std::isfinite(norm),
+            "Linear solvers/" + name +
+              ": the right-hand side is not finite. Look for a velocity or force that grows "
+              "without bound; a smaller Maximum time step may help.");
+  }
+
+  unsigned int
+  LinearSolver::solve(Vector &x, const Vector &b) const
+  {
+    const double norm = b.l2_norm();
+    if (norm == 0)
+      {
+        x = 0;
+        return 0;
+      }
+    require_finite(norm, name);
+    SolverControl control(prm.maximum_iterations, prm.relative_tolerance * norm);
+    try
+      {
+        SolverCG<Vector> solver(control);
+        solver.solve(Multiplies<Vector>{matrix}, x, b, Multiplies<Vector>{preconditioner});
+      }
+    catch (const SolverControl::NoConvergence &failure)
+      {
+        std::ostringstream message;
+        message << "Linear solvers/" << name << ": conjugate gradients with preconditioner "
+                << prm.preconditioner << " reached a relative residual of "
+                << failure.last_residual / norm << " in " << failure.last_step
+                << " iterations instead of " << prm.relative_tolerance
+                << ". Raise Maximum iterations or Relative tolerance, or choose another "
+                   "Preconditioner.";
+        throw UserError(message.str());
+      }
+    return control.last_step();
+  }
+} // namespace treacle

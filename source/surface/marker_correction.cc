@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/surface/marker_correction.h>
+#include <treacle/surface/near_markers.h>
+#include <treacle/surface/redistance.h>
+#include <treacle/surface/smooth_level_set.h>
+
+namespace treacle
+{
+  template <int dim>
+  std::vector<Marker<dim>>
+  moved_markers(const State<dim> &state, const NodeVector<dim> &velocity, const double dt)
+  {
+    const Mesh<dim> &mesh = *state.mesh;
+    if (Utilities::MPI::max<unsigned int>(state.markers.size(), mesh.communicator()) == 0)
+      return {};
+    const Tracer<dim>             tracer(mesh);
+    const std::vector<Point<dim>> from = positions(state.markers);
+    const std::vector<Point<dim>> to   = tracer.trace(from, velocity, dt);
+
+    std::vector<NodeVector<dim>> gradients;
+    gradients.reserve(dim); // a vector of them that grows would lose their ghosts
+    for (const Vector &component : velocity.component)
+      gradients.push_back(nodal_gradient(mesh, component));
+    std::vector<NodeField<dim>> fields;
+    for (const NodeVector<dim> &gradient : gradients)
+      for (const Vector &component : gradient.component)
+        fields.push_back({&component});
+    std::vector<Point<dim>> middle(from.size());
+    for (unsigned int k = 0; k < from.size(); ++k)
+      middle[k] = from[k] + 0.5 * (to[k] - from[k]);
+    const std::vector<double> numbers = tracer.evaluate(middle, fields);
+
+    std::vector<Marker<dim>> moved(from.size());
+    for (unsigned int k = 0; k < from.size(); ++k)
+      {
+        // dn/dt = -(grad u)^T n by the implicit midpoint rule; the length does not matter
+        const Tensor<1, dim> &old = state.markers[k].normal;
+        Tensor<2, dim>        half;
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            half[j][i] = 0.5 * dt * numbers[(k * dim + i) * dim + j];
+        const Tensor<1, dim> normal = invert(Tensor<2, dim>(unit_symmetric_tensor<dim>()) + half) * (old - half * old);
+        const double         length = normal.norm();
+        moved[k] = {to[k], std::isfinite(length) && length > 0 ? normal / length : old};
+      }
+    return moved;
+  }
+
+  namespace
+  {
+    template <int dim>
+    using Near = std::vector<const NearMarker<dim> *>;
+
+    /// How far a marker is felt, and the thickness below which films are left to phi, in
+    /// finest leaves.
+    constexpr double reach = 1.25, thinnest = 0.5;
+
+    /// Wendland's function, whose Fourier transform is positive. With others the mean over
+    /// markers turns the sign of waves as short as the leaves, and what is taken off makes
+    /// them grow, step by step.
+    double
+    weight(const double squared_distance, const double h)
+    {
+      const double r = std::sqrt(squared_distance) / (reach * h);
+      return std::pow(1 - r, 4) * (4 * r + 1);
+    }
+
+    /// A sheet of markers that face one way, as seen from a node.
+    struct Sheet
+    {
+      double distance;  ///< signed (m)
+      bool   is_beside; ///< the node lies beyond the sheet's end
+    };
+
+    /// The mean distance from the planes of markers. With the mean of two normals it is
+    /// exact for a sphere.
+    template <int dim>
+    Sheet
+    sheet(const Point<dim> &x, const Near<dim> &markers, const double h)
+    {
+      double         sum = 0, distance = 0;
+      Tensor<1, dim> mean;
+      for (const NearMarker<dim> *m : markers)
+        mean += weight((x - m->marker.position).norm_square(), h) * m->marker.normal;
+      mean /= mean.norm();
+      for (const NearMarker<dim> *m : markers)
+        {
+          const Tensor<1, dim> r = x - m->marker.position;
+          const double         w = weight(r.norm_square(), h);
+          sum += w;
+          distance += w * 0.5 * (r * (m->marker.normal + mean));
+        }
+      const Marker<dim>   &foot  = nearest(x, markers);
+      const Tensor<1, dim> r     = x - foot.position;
+      const double         along = std::pow(0.4 * reach * h, 2); // more than between markers
+      return {distance / sum, r.norm_square() - std::pow(r * foot.normal, 2) > along};
+    }
+
+    /// phi at a node near parts so thin, or edges so sharp, that the level set says
+    /// nothing there: from the sheets of markers around. @p old is what phi was.
+    template <int dim>
+    double
+    distance_from_sheets(const Point<dim> &x,
+                         const double      old,
+                         const Near<dim>  &same,
+                         const Near<dim>  &opposed,
+                         const double      h)
+    {
+      const Sheet first = sheet(x, same, h);
+      if (first.is_beside)
+        return old;
+      if (opposed.empty())
+        return first.distance;
+      const Sheet second = sheet(x, opposed, h);
+      if (second.is_beside)
+        return first.distance;
+      // of liquid between two sheets; negative: of air. The sum is the same on either
+      // side of both, so it tells a film from a gap. Sheets that come closer than
+      // markers are exact may have crossed: to trust them would let films grow
+      const double thickness = -(first.distance + second.distance);
+      if (std::abs(thickness) < thinnest * h)
+        return old;
+      return thickness > 0 ? std::max(first.distance, second.distance) :
+                             std::min(first.distance, second.distance);
+    }
+
+    /// phi at a node from the markers around it; those on the far side of a thin part
+    /// or of a corner do not count.
+    template <int dim>
+    double
+    corrected(const Point<dim> &x, const double old, const Near<dim> &near, const double h)
+    {
+      const Tensor<1, dim> facing = nearest(x, near).normal;
+      Near<dim>            same, opposed;
+      bool                 is_smooth = true;
+      double               sum = 0, residual = 0;
+      for (const NearMarker<dim> *m : near)
+        {
+          const double along = m->marker.normal * facing;
+          if (along < -0.3)
+            opposed.push_back(m);
+          if (along <= 0)
+            continue;
+          same.push_back(m);
+          const double w = weight((x - m->marker.position).norm_square(), h);
+          is_smooth      = is_smooth && !std::isnan(m->value);
+          sum += w;
+          residual += w * m->value;
+        }
+      const double wanted = opposed.empty() && is_smooth ?
+                              old - residual / sum :
+                              distance_from_sheets(x, old, same, opposed, h);
+      // a lone marker far away must not have its way with a node
+      return old + std::min(sum, 1.) * (wanted - old);
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  correct_by_markers(State<dim> &state)
+  {
+    const Mesh<dim>    &mesh = *state.mesh;
+    const double        h    = mesh.finest_size();
+    std::vector<double> values;
+    for (const auto &at : SmoothLevelSet<dim>(mesh, state.phi).samples(positions(state.markers)))
+      values.push_back(at.smoothness < 0.5 ? std::nan("") : at.value);
+    const NearMarkers<dim> markers(mesh, state.markers, values, reach * h);
+    Near<dim>              near;
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      {
+        double &phi = state.phi.local_element(node);
+        if (std::abs(phi) > 3 * h)
+          continue;
+        const Point<dim> &x = mesh.node_position[node];
+        markers.around(x, near);
+        if (!near.empty())
+          phi = corrected(x, phi, near, h);
+      }
+    state.phi.update_ghost_values();
+  }
+
+#define INSTANTIATE(dim)                                                                      \
+  template std::vector<Marker<dim>> moved_markers(                                            \
+    const State<dim> &, const NodeVector<dim> &, const double);                               \
+  template void correct_by_markers(State<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace treacle

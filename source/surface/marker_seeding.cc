@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exceptions.h>
+#include <treacle/base/exchange.h>
+#include <treacle/surface/marker_seeding.h>
+#include <treacle/surface/near_markers.h>
+#include <treacle/surface/smooth_level_set.h>
+#include <treacle/surface/surface.h>
+
+namespace treacle
+{
+  namespace
+  {
+    /// Does the surface pass through cells of this rank?
+    template <int dim>
+    bool
+    cuts_cells(const State<dim> &state)
+    {
+      for (LocalIndex c = 0; c < state.mesh->n_owned_cells(); ++c)
+        if (surface_facets<dim>(state.mesh->values(c, state.phi)).n > 0)
+          return true;
+      return false;
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  remove_stray_markers(State<dim> &state, const Scene<dim> &scene)
+  {
+    const Mesh<dim> &mesh   = *state.mesh;
+    const double     h      = mesh.finest_size();
+    const auto      &box    = mesh.box();
+    const auto       on_box = [&, h](const Point<dim> &x) {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (x[d] < box.lower_bound(d) + 1e-6 * h || x[d] > box.upper_bound(d) - 1e-6 * h)
+          return true;
+      return false;
+    };
+    const auto samples =
+      SmoothLevelSet<dim>(mesh, state.phi).samples(positions(state.markers));
+    std::vector<Marker<dim>> kept;
+    unsigned int             n_lost = 0;
+    for (unsigned int k = 0; k < samples.size(); ++k)
+      {
+        const Marker<dim>  &marker    = state.markers[k];
+        const double        phi       = samples[k].value;
+        const bool          is_smooth = samples[k].smoothness > 0.9;
+        const Tensor<1, dim> gradient = samples[k].gradient;
+        // in the liquid two surfaces may have met; but air around a marker, or no
+        // number, says that the surface was lost
+        n_lost += !(phi < h);
+        if (!(std::abs(phi) < 0.75 * h) || on_box(marker.position) ||
+            (is_smooth && gradient * marker.normal < 0) ||
+            (scene.has_solids() && scene.solid_distance(marker.position, state.time) < 0))
+          continue;
+        kept.push_back(marker);
+        if (is_smooth)
+          kept.back().normal = gradient / gradient.norm();
+      }
+    const MPI_Comm    &comm  = mesh.communicator();
+    const unsigned int lost  = Utilities::MPI::sum(n_lost, comm);
+    const unsigned int total = Utilities::MPI::sum<unsigned int>(state.markers.size(), comm);
+    // where nothing is left, as of a film that withered, there is nothing to follow
+    require(2 * lost <= total || Utilities::MPI::max(cuts_cells(state) ? 1 : 0, comm) == 0,
+            "Surface tracking: " + std::to_string(lost) + " of " + std::to_string(total) +
+              " markers are further than a leaf from the surface at t = " +
+              digits(state.time) +
+              " s. Lower Maximum CFL number or Maximum time step, or raise Mesh/Surface level.");
+    state.markers = std::move(kept);
+  }
+
+  namespace
+  {
+    /// A number in [0, 1) from an integer, the same everywhere (splitmix64).
+    double
+    scattered(std::uint64_t z)
+    {
+      z += 0x9e3779b97f4a7c15ull;
+      z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+      z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+      return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+    }
+
+    /// Point k of an even sequence on a facet (Roberts 2018: steps by the powers of the
+    /// root of x^dim = x + 1).
+    template <int dim>
+    Point<dim>
+    even_point(const std::array<Point<dim>, dim> &facet, const double start, const unsigned int k)
+    {
+      const double root = dim == 2 ? 1.618033988749895 : 1.324717957244746;
+      double       ignored;
+      double       s = std::modf(start + k / root, &ignored);
+      if (dim == 2)
+        return facet[0] + s * (facet[1] - facet[0]);
+      double t = std::modf(start + k / (root * root), &ignored);
+      if (s + t > 1)
+        {
+          s = 1 - s;
+          t = 1 - t;
+        }
+      return facet[0] + s * (facet[1] - facet[0]) + t * (facet[dim - 1] - facet[0]);
+    }
+
+    /// Area of a plane in a cell, the mean over all planes that cut one: volume over
+    /// mean width, for a cell between two leaves of edge 1.
+    template <int dim>
+    constexpr double mean_facet_area = dim == 2 ? 0.3254 : 0.1007;
+
+    template <int dim>
+    class Seeding
+    {
+    public:
+      Seeding(State<dim> &state, const Scene<dim> &scene, const unsigned int per_cell)
+        : state(state)
+        , mesh(*state.mesh)
+        , scene(scene)
+        , density(per_cell / (mean_facet_area<dim> * std::pow(mesh.finest_size(), dim - 1)))
+        , count(mesh.cells)
+        , wanted(mesh.cells)
+      {}
+
+      void
+      reseed()
+      {
+        measure_cells();
+        count_markers();
+        thin();
+        add();
+      }
+
+    private:
+      template <typename Visit>
+      void
+      for_each_facet(const LocalIndex cell, const Visit &visit) const
+      {
+        const VertexValues<dim> phi    = mesh.values(cell, state.phi);
+        const Facets<dim>       facets = surface_facets<dim>(phi);
+        for (unsigned int k = 0; k < facets.n; ++k)
+          {
+            std::array<Point<dim>, dim> x;
+            for (unsigned int i = 0; i < dim; ++i)
+              {
+                const auto [a, b] = facets.facet[k][i];
+                const Point<dim> &from = mesh.node_position[mesh.cell_nodes[cell][a]];
+                x[i] = from + edge_zero(phi[a], phi[b]) *
+                                (mesh.node_position[mesh.cell_nodes[cell][b]] - from);
+              }
+            visit(x);
+          }
+      }
+
+      std::uint64_t
+      key(const LocalIndex cell) const
+      {
+        std::uint64_t sum = 0;
+        for (const LocalIndex node : mesh.cell_nodes[cell])
+          sum += mesh.node_key[node];
+        return sum;
+      }
+
+      void
+      measure_cells()
+      {
+        for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+          for_each_facet(c, [&](const auto &x) {
+            wanted.local_element(c) += density * area_vector<dim>(x).norm();
+          });
+        wanted.update_ghost_values();
+      }
+
+      void
+      count_markers()
+      {
+        const Locator<dim> locator(mesh);
+        for (const Marker<dim> &marker : state.markers)
+          {
+            cells.push_back(locator.locate_here(marker.position).cell);
+            count.local_element(cells.back()) += 1;
+          }
+        count.compress(VectorOperation::add);
+        count.update_ghost_values();
+      }
+
+      /// Cells with more than twice what is wanted keep a part that depends on the
+      /// markers' places alone.
+      void
+      thin()
+      {
+        std::vector<Marker<dim>> kept;
+        for (unsigned int k = 0; k < cells.size(); ++k)
+          {
+            const double n      = count.local_element(cells[k]);
+            const double target = wanted.local_element(cells[k]);
+            std::uint64_t place = 0;
+            for (unsigned int d = 0; d < dim; ++d)
+              place = 0x100000001b3ull * place + static_cast<std::int64_t>(std::floor(
+                        1e3 * state.markers[k].position[d] / mesh.finest_size()));
+            if (target == 0 || n <= 2 * target + 2 || scattered(place) * n < target)
+              kept.push_back(state.markers[k]);
+          }
+        state.markers = std::move(kept);
+      }
+
+      void
+      add()
+      {
+        std::vector<Marker<dim>> seeds;
+        for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+          {
+            const double target = wanted.local_element(c);
+            if (target == 0 || count.local_element(c) >= 0.5 * target)
+              continue;
+            const double start   = scattered(key(c));
+            double       missing = target - count.local_element(c), part = start;
+            for_each_facet(c, [&](const auto &x) {
+              const Tensor<1, dim> area = area_vector<dim>(x);
+              if (area.norm() == 0)
+                return;
+              part += missing * density * area.norm() / target;
+              for (unsigned int k = 1; part >= 1; part -= 1, ++k)
+                seeds.push_back({even_point<dim>(x, start, k), area / area.norm()});
+            });
+          }
+        project(seeds);
+        seeds = to_owners(mesh, seeds);
+        keep_in_line(seeds);
+        state.markers.insert(state.markers.end(), seeds.begin(), seeds.end());
+      }
+
+      /// Where markers are about, they know better than phi where a surface runs: seeds
+      /// across it would be the ends of a thin part that phi cannot hold.
+      void
+      keep_in_line(std::vector<Marker<dim>> &seeds) const
+      {
+        const double           reach = 0.75 * mesh.finest_size();
+        const NearMarkers<dim> markers(mesh,
+                                       state.markers,
+                                       std::vector<double>(state.markers.size()),
+                                       reach);
+        std::vector<Marker<dim>>                   kept;
+        std::vector<const NearMarker<dim> *> near;
+        for (const Marker<dim> &seed : seeds)
+          {
+            if (scene.has_solids() && scene.solid_distance(seed.position, state.time) < 0)
+              continue;
+            markers.around(seed.position, near);
+            if (near.empty() || nearest(seed.position, near).normal * seed.normal > 0.5)
+              kept.push_back(seed);
+          }
+        seeds = std::move(kept);
+      }
+
+      /// From the facets to the smooth surface they are chords of.
+      void
+      project(std::vector<Marker<dim>> &seeds) const
+      {
+        const SmoothLevelSet<dim> phi(mesh, state.phi);
+        for (unsigned int round = 0; round < 2; ++round)
+          {
+            const auto samples = phi.samples(positions(seeds));
+            for (unsigned int k = 0; k < seeds.size(); ++k)
+              if (samples[k].smoothness > 0.9)
+                {
+                  const Tensor<1, dim> &g = samples[k].gradient;
+                  seeds[k].position -= samples[k].value * g / g.norm_square();
+                  seeds[k].normal = g / g.norm();
+                }
+            const auto moved = Locator<dim>(mesh).clamped(positions(seeds));
+            for (unsigned int k = 0; k < seeds.size(); ++k)
+              seeds[k].position = moved[k];
+          }
+      }
+
+      State<dim>              &state;
+      const Mesh<dim>         &mesh;
+      const Scene<dim>        &scene;
+      const double             density; ///< markers per area
+      Vector                   count;   ///< of markers in each cell
+      Vector                   wanted;
+      std::vector<LocalIndex>  cells; ///< of the markers of this rank
+    };
+  } // namespace
+
+  template <int dim>
+  void
+  reseed_markers(State<dim> &state, const Scene<dim> &scene, const unsigned int per_cell)
+  {
+    Seeding<dim>(state, scene, per_cell).reseed();
+  }
+
+  template void
+  remove_stray_markers(State<2> &, const Scene<2> &);
+  template void
+  remove_stray_markers(State<3> &, const Scene<3> &);
+  template void
+  reseed_markers(State<2> &, const Scene<2> &, const unsigned int);
+  template void
+  reseed_markers(State<3> &, const Scene<3> &, const unsigned int);
+} // namespace treacle

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exchange.h>
+#include <treacle/mesh/near_ranks.h>
+#include <treacle/surface/near_markers.h>
+
+namespace treacle
+{
+  template <int dim>
+  NearMarkers<dim>::NearMarkers(const Mesh<dim>                &mesh,
+                                const std::vector<Marker<dim>> &markers,
+                                const std::vector<double>      &values,
+                                const double                    reach)
+    : reach(reach)
+    , origin(mesh.box().get_boundary_points().first)
+  {
+    const NearRanks<dim>                     near(mesh, reach);
+    PerRank<std::array<double, 2 * dim + 1>> to_rank(near.n_ranks());
+    for (unsigned int k = 0; k < markers.size(); ++k)
+      {
+        all.push_back({markers[k], values[k]});
+        const Point<dim> &x = markers[k].position;
+        near.for_each(BoundingBox<dim>({x, x}), [&](const unsigned int r) {
+          const auto numbers = markers[k].numbers();
+          to_rank[r].emplace_back();
+          std::copy(numbers.begin(), numbers.end(), to_rank[r].back().begin());
+          to_rank[r].back().back() = values[k];
+        });
+      }
+    for (const auto &received : send_and_receive(mesh.communicator(), to_rank))
+      for (const auto &numbers : received)
+        all.push_back({Marker<dim>::from(numbers.data()), numbers.back()});
+    sort_into_cubes();
+  }
+
+  template <int dim>
+  LatticePoint<dim>
+  NearMarkers<dim>::cube_of(const Point<dim> &x) const
+  {
+    LatticePoint<dim> cube;
+    for (unsigned int d = 0; d < dim; ++d)
+      cube[d] = static_cast<int>(std::max(0., std::floor((x[d] - origin[d]) / reach)));
+    return cube;
+  }
+
+  template <int dim>
+  void
+  NearMarkers<dim>::sort_into_cubes()
+  {
+    std::vector<std::pair<VertexKey, unsigned int>> order;
+    for (unsigned int k = 0; k < all.size(); ++k)
+      order.emplace_back(pack<dim>(cube_of(all[k].marker.position)), k);
+    // in an order that no partition changes: sums and ties depend on it
+    std::sort(order.begin(), order.end(), [&](const auto &a, const auto &b) {
+      return a.first != b.first ?
+               a.first < b.first :
+               all[a.second].marker.numbers() < all[b.second].marker.numbers();
+    });
+    std::vector<NearMarker<dim>> sorted;
+    sorted.reserve(all.size());
+    for (const auto &[key, k] : order)
+      {
+        const unsigned int at = sorted.size();
+        cubes.emplace(key, std::make_pair(at, at)).first->second.second = at + 1;
+        sorted.push_back(all[k]);
+      }
+    all = std::move(sorted);
+  }
+
+  template <int dim>
+  void
+  NearMarkers<dim>::around(const Point<dim>                     &x,
+                           std::vector<const NearMarker<dim> *> &result) const
+  {
+    result.clear();
+    Point<dim> lower = x, upper = x;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] -= reach;
+        upper[d] += reach;
+      }
+    const LatticePoint<dim> first = cube_of(lower), last = cube_of(upper);
+    for (LatticePoint<dim> cube = first; cube[dim - 1] <= last[dim - 1];)
+      {
+        if (const auto found = cubes.find(pack<dim>(cube)); found != cubes.end())
+          for (unsigned int k = found->second.first; k < found->second.second; ++k)
+            if ((all[k].marker.position - x).norm_square() < reach * reach)
+              result.push_back(&all[k]);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            ++cube[d];
+            if (cube[d] <= last[d] || d == dim - 1)
+              break;
+            cube[d] = first[d];
+          }
+      }
+  }
+
+  template class NearMarkers<2>;
+  template class NearMarkers<3>;
+} // namespace treacle

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exchange.h>
+#include <treacle/geometry/nearest_point.h>
+#include <treacle/mesh/near_ranks.h>
+#include <treacle/surface/surface_distance.h>
+
+#include <limits>
+
+namespace treacle
+{
+  namespace bgi = boost::geometry::index;
+
+  template <int dim>
+  SurfaceDistance<dim>::SurfaceDistance(const Mesh<dim> &mesh, const Vector &phi, const double reach)
+    : reach(reach)
+    , box(mesh.box())
+  {
+    const Surface<dim> surface = extract_surface(mesh, phi);
+    const MPI_Comm    &comm    = mesh.communicator();
+    const NearRanks<dim>       near(mesh, reach);
+
+    PerRank<std::array<double, dim * dim>> to_rank(near.n_ranks());
+    for (unsigned int k = 0; k < surface.facets.size(); ++k)
+      {
+        const Facet x = surface.facet_points(k);
+        facets.push_back(x);
+        const BoundingBox<dim> around(std::vector<Point<dim>>(x.begin(), x.end()));
+        near.for_each(around, [&](const unsigned int r) {
+          to_rank[r].emplace_back();
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int d = 0; d < dim; ++d)
+              to_rank[r].back()[dim * i + d] = x[i][d];
+        });
+      }
+    for (const auto &received : send_and_receive(comm, to_rank))
+      for (const auto &numbers : received)
+        {
+          facets.emplace_back();
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int d = 0; d < dim; ++d)
+              facets.back()[i][d] = numbers[dim * i + d];
+        }
+
+    std::vector<std::pair<BoundingBox<dim>, unsigned int>> entries;
+    for (unsigned int k = 0; k < facets.size(); ++k)
+      entries.emplace_back(
+        BoundingBox<dim>(std::vector<Point<dim>>(facets[k].begin(), facets[k].end())), k);
+    tree = pack_rtree(entries);
+    if (!tree.empty())
+      boost::geometry::convert(tree.bounds(), bounds);
+  }
+
+  template <int dim>
+  typename SurfaceDistance<dim>::Nearest
+  SurfaceDistance<dim>::nearest(const Point<dim> &x) const
+  {
+    Nearest best{x, std::numeric_limits<double>::infinity()};
+    if (tree.empty() || boost::geometry::distance(x, bounds) > reach)
+      return best;
+    // boxes in the order of their distance, more of them until no other can hold
+    // a nearer facet (an incremental query costs far more)
+    std::vector<std::pair<BoundingBox<dim>, unsigned int>> boxes;
+    // on the box a nearest point is often the corner of several facets: all of them
+    // count, for their order depends on the partition
+    const double tolerance   = 1e-12 * box.side_length(0);
+    double       beyond      = best.distance;
+    for (unsigned int k = 8;; k *= 8)
+      {
+        boxes.clear();
+        tree.query(bgi::nearest(x, k), std::back_inserter(boxes));
+        double farthest_box = 0;
+        for (const auto &[around, facet] : boxes)
+          {
+            farthest_box     = std::max(farthest_box, boost::geometry::distance(x, around));
+            const Point<dim> p = nearest_point(facets[facet], x);
+            const double     d = p.distance(x);
+            if (d >= reach || d > best.distance + tolerance)
+              continue;
+            if (d < best.distance - tolerance)
+              {
+                best   = {p, d};
+                beyond = distance_beyond_box(x, p, facets[facet]);
+              }
+            else
+              beyond = std::min(beyond, distance_beyond_box(x, p, facets[facet]));
+          }
+        if (boxes.size() < k || farthest_box >= std::min(best.distance, reach))
+          break;
+      }
+    best.distance = beyond;
+    return best;
+  }
+
+  template <int dim>
+  double
+  SurfaceDistance<dim>::distance_beyond_box(const Point<dim> &x,
+                                            const Point<dim> &nearest,
+                                            const Facet      &facet) const
+  {
+    const double actual    = x.distance(nearest);
+    const double tolerance = 1e-12 * box.side_length(0);
+    bool         on_box    = false;
+    for (unsigned int d = 0; d < dim; ++d)
+      on_box = on_box || std::abs(nearest[d] - box.lower_bound(d)) < tolerance ||
+               std::abs(nearest[d] - box.upper_bound(d)) < tolerance;
+    const Tensor<1, dim> a = area_vector<dim>(facet);
+    if (!on_box || a.norm() == 0)
+      return actual;
+    const double     above = (x - nearest) * a / a.norm();
+    const Point<dim> foot  = x - above * a / a.norm();
+    return box.point_inside(foot, 0) ? actual : std::abs(above);
+  }
+
+  template class SurfaceDistance<2>;
+  template class SurfaceDistance<3>;
+} // namespace treacle

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/surface/marker_correction.h>
+#include <treacle/surface/marker_seeding.h>
+#include <treacle/surface/redistance.h>
+#include <treacle/surface/surface.h>
+#include <treacle/surface/surface_tracking.h>
+
+namespace treacle
+{
+  template <int dim>
+  void
+  SurfaceTracking<dim>::Parameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Surface tracking");
+    prm.add_parameter("Method",
+                      method,
+                      "What follows the surface: a level set, corrected by markers that are "
+                      "carried along or not. Markers keep thin parts, edges and volume.",
+                      Patterns::Selection("marker level set|level set"));
+    prm.add_parameter("Markers per cell",
+                      markers_per_cell,
+                      "Mean number of markers in a cell that the surface cuts.",
+                      Patterns::Integer(1, 1000));
+    prm.add_parameter("Volume correction",
+                      volume_correction,
+                      "Move the surface evenly along its normal so that the volume stays what it "
+                      "was at the start.");
+    prm.leave_subsection();
+  }
+
+  namespace
+  {
+    /// Area of phi = 0 over all ranks (m^(dim-1)).
+    template <int dim>
+    double
+    surface_area(const State<dim> &state)
+    {
+      const Surface<dim> surface = extract_surface(*state.mesh, state.phi);
+      double             area    = 0;
+      for (unsigned int k = 0; k < surface.facets.size(); ++k)
+        area += area_vector<dim>(surface.facet_points(k)).norm();
+      return Utilities::MPI::sum(area, state.mesh->communicator());
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  SurfaceTracking<dim>::advance(State<dim>       &state,
+                                const Scene<dim> &scene,
+                                const double      reach,
+                                const double      volume) const
+  {
+    if (has_markers())
+      correct_by_markers(state);
+    redistance(state, reach);
+    if (has_markers())
+      correct_by_markers(state);
+    if (prm.volume_correction)
+      correct_volume(state, scene, volume);
+    if (has_markers())
+      remove_stray_markers(state, scene);
+    reseed(state, scene);
+  }
+
+  template <int dim>
+  void
+  SurfaceTracking<dim>::reseed(State<dim> &state, const Scene<dim> &scene) const
+  {
+    if (has_markers())
+      reseed_markers(state, scene, prm.markers_per_cell);
+    else
+      state.markers.clear();
+  }
+
+  template <int dim>
+  void
+  SurfaceTracking<dim>::correct_volume(State<dim>       &state,
+                                       const Scene<dim> &scene,
+                                       const double      volume) const
+  {
+    // Newton's method: the derivative of the volume is the area. A lost drop
+    // must not blow up the rest in one step, hence the bound.
+    const double largest = 0.1 * state.mesh->finest_size();
+    double       offset  = 0;
+    for (unsigned int k = 0; k < 2; ++k)
+      {
+        const double area = surface_area(state);
+        if (area == 0)
+          break;
+        const double wanted = offset + (liquid_volume(*state.mesh, state.phi, scene, state.time) - volume) / area;
+        const double change = std::min(std::max(wanted, -largest), largest) - offset;
+        offset += change;
+        state.phi.zero_out_ghost_values();
+        state.phi.add(change);
+        state.phi.update_ghost_values();
+      }
+    for (Marker<dim> &marker : state.markers)
+      marker.position -= offset * marker.normal;
+    state.markers = to_owners(*state.mesh, state.markers);
+  }
+
+  template class SurfaceTracking<2>;
+  template class SurfaceTracking<3>;
+} // namespace treacle

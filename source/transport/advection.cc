@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/mesh/tracer.h>
+#include <treacle/surface/marker_correction.h>
+#include <treacle/transport/advection.h>
+#include <treacle/transport/back_and_forth.h>
+#include <treacle/transport/surface_velocity.h>
+#include <treacle/transport/time_step.h>
+
+namespace treacle
+{
+  namespace
+  {
+    template <int dim>
+    std::vector<Point<dim>>
+    owned_nodes(const Mesh<dim> &mesh)
+    {
+      return {mesh.node_position.begin(), mesh.node_position.begin() + mesh.n_owned_nodes()};
+    }
+
+    /// a v + b w
+    template <int dim>
+    NodeVector<dim>
+    combined(const double a, const NodeVector<dim> &v, const double b, const NodeVector<dim> &w)
+    {
+      NodeVector<dim> result = v;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          result.component[d].zero_out_ghost_values();
+          result.component[d].sadd(a, b, w.component[d]);
+        }
+      result.update_ghost_values();
+      return result;
+    }
+
+    /// In the middle of the step: as steady as it was before it.
+    template <int dim>
+    NodeVector<dim>
+    velocity_in_middle(const State<dim> &old, const double dt, const BackwardDifference &difference)
+    {
+      const double part = difference.before == 0 ? 0. : 0.5 * dt / old.before->dt;
+      return combined(1 + part, old.v, -part, part == 0 ? old.v : *old.before->v);
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  Advection<dim>::Parameters::add_parameters(ParameterHandler &handler)
+  {
+    handler.enter_subsection("Advection");
+    handler.add_parameter("Scheme",
+                          scheme,
+                          "How velocity and material are carried along: MacCormack's correction keeps more of "
+                          "what is small, at about twice the work.",
+                          Patterns::Selection("semi-Lagrangian|MacCormack"));
+    handler.leave_subsection();
+  }
+
+  template <int dim>
+  Advection<dim>::Advection(const Parameters        &parameters,
+                            const State<dim>        &old,
+                            const LiquidDomain<dim> &domain,
+                            const double             dt)
+    : prm(parameters)
+    , old(old)
+    , dt(dt)
+    , difference(dt, old)
+    , velocity(velocity_in_middle(old, dt, difference))
+    , surface_velocity(treacle::surface_velocity(
+        old, domain, velocity, dt * maximum_speed(old, domain) + 2 * old.mesh->finest_size()))
+    , phi(*old.mesh, old.phi)
+  {}
+
+  template <int dim>
+  std::vector<Point<dim>>
+  Advection<dim>::move_surface(const std::vector<Point<dim>> &x) const
+  {
+    return Tracer<dim>(*old.mesh).trace(x, surface_velocity, dt);
+  }
+
+  template <int dim>
+  std::vector<Marker<dim>>
+  Advection<dim>::move_markers() const
+  {
+    return moved_markers(old, surface_velocity, dt);
+  }
+
+  template <int dim>
+  std::vector<double>
+  Advection<dim>::level_set(const std::vector<Point<dim>> &x) const
+  {
+    return phi.values(Tracer<dim>(*old.mesh).trace(x, surface_velocity, -dt));
+  }
+
+  template <int dim>
+  std::vector<double>
+  Advection<dim>::carried(const std::vector<const Vector *> &fields,
+                          const NodeVector<dim>             &velocity,
+                          const std::vector<Point<dim>>     &from,
+                          const double                       dt,
+                          const double                       reach) const
+  {
+    std::vector<NodeField<dim>> node_fields;
+    for (const Vector *field : fields)
+      node_fields.push_back({field});
+    std::vector<Vector> correction;
+    if (prm.scheme == "MacCormack")
+      {
+        std::vector<LocalIndex> known, corrected;
+        for (LocalIndex node = 0; node < old.mesh->n_owned_nodes(); ++node)
+          {
+            const double phi = old.phi.local_element(node);
+            if (phi < reach)
+              known.push_back(node);
+            if (phi < 0) // fields in the air are not smooth
+              corrected.push_back(node);
+          }
+        correction = back_and_forth_error(*old.mesh, fields, velocity, dt, known, corrected);
+        for (unsigned int k = 0; k < fields.size(); ++k)
+          node_fields[k].correction = &correction[k];
+      }
+    return Tracer<dim>(*old.mesh).evaluate(from, node_fields);
+  }
+
+  template <int dim>
+  State<dim>
+  Advection<dim>::advance(std::shared_ptr<const Mesh<dim>> mesh, const double reach) const
+  {
+    State<dim> state(mesh);
+    state.time = old.time + dt;
+    state.step = old.step + 1;
+    if (mesh == old.mesh)
+      state.pressure = old.pressure;
+    state.pressure.update_ghost_values();
+    advance_nodes(state, reach);
+    advance_faces(state, reach);
+    return state;
+  }
+
+  template <int dim>
+  VelocityBefore<dim>
+  Advection<dim>::velocity_before(const Mesh<dim> &mesh) const
+  {
+    VelocityBefore<dim> before{dt, NodeVector<dim>(mesh.nodes), {}};
+    if (&mesh == old.mesh.get())
+      *before.v = old.v;
+    else
+      {
+        std::vector<NodeField<dim>> fields;
+        for (const Vector &component : old.v.component)
+          fields.push_back({&component});
+        const std::vector<double> v = Tracer<dim>(*old.mesh).evaluate(owned_nodes(mesh), fields);
+        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+          for (unsigned int d = 0; d < dim; ++d)
+            before.v->component[d].local_element(node) = v[dim * node + d];
+      }
+    before.v->update_ghost_values();
+    return before;
+  }
+
+  template <int dim>
+  void
+  Advection<dim>::advance_nodes(State<dim> &state, const double reach) const
+  {
+    const Mesh<dim>              &mesh = *state.mesh;
+    const std::vector<Point<dim>> from =
+      Tracer<dim>(*old.mesh).trace(owned_nodes(mesh), surface_velocity, -dt);
+    const std::vector<double> values = phi.values(from);
+    std::copy(values.begin(), values.end(), state.phi.begin());
+    state.phi.update_ghost_values();
+    if (!old.material)
+      return;
+    const std::vector<double> material =
+      carried({&old.material->density, &old.material->viscosity}, surface_velocity, from, dt, reach);
+    state.material.emplace(mesh.nodes);
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      {
+        state.material->density.local_element(node)   = material[2 * node];
+        state.material->viscosity.local_element(node) = material[2 * node + 1];
+      }
+    state.material->update_ghost_values();
+  }
+
+  template <int dim>
+  void
+  Advection<dim>::advance_faces(State<dim> &state, const double reach) const
+  {
+    const Mesh<dim>        &mesh = *state.mesh;
+    std::vector<LocalIndex> faces;
+    std::vector<Point<dim>> x;
+    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
+      if (std::any_of(mesh.face_nodes[f].begin(), mesh.face_nodes[f].end(), [&](const auto node) {
+            return state.phi.local_element(node) < reach;
+          }))
+        {
+          faces.push_back(f);
+          x.push_back(mesh.face_centre[f]);
+        }
+    const auto add = [&](const double                   weight,
+                         const NodeVector<dim>         &v,
+                         const std::vector<Point<dim>> &from,
+                         const double                   elapsed) {
+      std::vector<const Vector *> components;
+      for (const Vector &component : v.component)
+        components.push_back(&component);
+      const std::vector<double> values = carried(components, velocity, from, elapsed, reach);
+      for (unsigned int i = 0; i < faces.size(); ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          state.u.local_element(faces[i]) +=
+            weight * mesh.face_normal[faces[i]][d] * values[dim * i + d];
+    };
+    const Tracer<dim>             tracer(*old.mesh);
+    const std::vector<Point<dim>> from = tracer.trace(x, velocity, -dt);
+    add(difference.now, old.v, from, dt);
+    if (difference.before != 0)
+      add(difference.before,
+          *old.before->v,
+          tracer.trace(from, combined(0.5, old.v, 0.5, *old.before->v), -old.before->dt),
+          dt + old.before->dt);
+    state.u.update_ghost_values();
+  }
+
+  template class Advection<2>;
+  template class Advection<3>;
+} // namespace treacle

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/fields/face_node.h>
+#include <treacle/fields/gradients.h>
+#include <treacle/transport/surface_velocity.h>
+
+namespace treacle
+{
+  namespace
+  {
+    /// Set the @p components of v, by a mask for each node, to the mean over the known nodes
+    /// around it, layer by layer.
+    template <int dim>
+    void
+    continue_outwards(const Mesh<dim>                  &mesh,
+                      Vector                           &is_known,
+                      const std::vector<unsigned char> &components,
+                      const unsigned int                n_layers,
+                      NodeVector<dim>                  &v)
+    {
+      std::vector<LocalIndex> unknown;
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        if (is_known.local_element(node) == 0)
+          unknown.push_back(node);
+      is_known.update_ghost_values();
+      v.update_ghost_values();
+      for (unsigned int layer = 0; layer < n_layers; ++layer)
+        {
+          std::vector<std::pair<LocalIndex, Tensor<1, dim>>> found;
+          Tensor<1, dim>                                     mean;
+          for (const LocalIndex node : unknown)
+            if (mean_of_neighbours(mesh, v, is_known, node, mean))
+              found.emplace_back(node, mean);
+          for (const auto &[node, value] : found)
+            {
+              is_known.local_element(node) = 1;
+              for (unsigned int d = 0; d < dim; ++d)
+                if (components[node] >> d & 1)
+                  v.component[d].local_element(node) = value[d];
+            }
+          unknown.erase(std::remove_if(unknown.begin(),
+                                       unknown.end(),
+                                       [&](const LocalIndex node) {
+                                         return is_known.local_element(node) > 0;
+                                       }),
+                        unknown.end());
+          is_known.update_ghost_values();
+          v.update_ghost_values();
+        }
+    }
+
+    /// The velocity gradient at free nodes in the liquid, mean over the cells around a node that
+    /// lie in it, row by row; is_known tells where there is one.
+    template <int dim>
+    struct GradientInLiquid
+    {
+      std::vector<NodeVector<dim>> row;
+      Vector                       is_known;
+
+      GradientInLiquid(const State<dim>        &state,
+                       const LiquidDomain<dim> &domain,
+                       const NodeVector<dim>   &v)
+        : is_known(state.mesh->nodes)
+      {
+        const Mesh<dim> &mesh = *state.mesh;
+        row.reserve(dim); // a vector of them that grows would lose their ghosts
+        for (unsigned int d = 0; d < dim; ++d)
+          row.emplace_back(mesh.nodes);
+        const auto is_liquid = [&](const LocalIndex node) {
+          return state.phi.local_element(node) <= 0;
+        };
+        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+          {
+            if (!is_liquid(node) || domain.constrained[node] != 0)
+              continue;
+            Tensor<2, dim> sum;
+            double         volume = 0;
+            for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+              {
+                const LocalIndex c     = mesh.node_cells[k];
+                const auto      &nodes = mesh.cell_nodes[c];
+                if (!std::all_of(nodes.begin(), nodes.end(), is_liquid))
+                  continue;
+                sum += mesh.cell_volume[c] * velocity_gradient(mesh, c, v);
+                volume += mesh.cell_volume[c];
+              }
+            if (volume == 0)
+              continue;
+            is_known.local_element(node) = 1;
+            for (unsigned int d = 0; d < dim; ++d)
+              row[d].set(node, sum[d] / volume);
+          }
+        is_known.update_ghost_values();
+        for (NodeVector<dim> &r : row)
+          r.update_ghost_values();
+      }
+    };
+
+    /// What the linear continuation adds to v at active nodes in the air, and beyond them.
+    template <int dim>
+    NodeVector<dim>
+    linear_part(const State<dim>        &state,
+                const LiquidDomain<dim> &domain,
+                const NodeVector<dim>   &v,
+                const double             distance)
+    {
+      const Mesh<dim>            &mesh = *state.mesh;
+      const GradientInLiquid<dim> gradient(state, domain, v);
+      NodeVector<dim>             added(mesh.nodes);
+      Vector                      is_known(mesh.nodes);
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        {
+          is_known.local_element(node) =
+            state.phi.local_element(node) <= 0 || domain.is_active_node[node];
+          if (state.phi.local_element(node) <= 0 || !domain.is_active_node[node])
+            continue;
+          Tensor<1, dim> sum;
+          unsigned int   n = 0;
+          for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+            for (const LocalIndex other : mesh.cell_nodes[mesh.node_cells[k]])
+              if (gradient.is_known.local_element(other) > 0)
+                {
+                  const Tensor<1, dim> d = mesh.node_position[node] - mesh.node_position[other];
+                  sum += v.value(other);
+                  for (unsigned int a = 0; a < dim; ++a)
+                    sum[a] += gradient.row[a].value(other) * d;
+                  ++n;
+                }
+          if (n > 0)
+            added.set(node, sum / n - v.value(node));
+        }
+      constexpr unsigned char all = (1u << dim) - 1;
+      // nodes lie at least half a leaf apart
+      const unsigned int n_layers = std::ceil(2 * distance / mesh.finest_size());
+      continue_outwards(
+        mesh, is_known, std::vector<unsigned char>(mesh.n_owned_nodes(), all), n_layers, added);
+      return added;
+    }
+  } // namespace
+
+  template <int dim>
+  NodeVector<dim>
+  surface_velocity(const State<dim>        &state,
+                   const LiquidDomain<dim> &domain,
+                   const NodeVector<dim>   &v,
+                   const double             distance)
+  {
+    const Mesh<dim>      &mesh   = domain.mesh;
+    NodeVector<dim>       result = v;
+    const NodeVector<dim> added  = linear_part(state, domain, v, distance);
+    Vector                is_free(mesh.nodes);
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      {
+        result.set(node, v.value(node) + added.value(node));
+        is_free.local_element(node) =
+          domain.constrained[node] == 0 || domain.is_emitter_node[node];
+      }
+    continue_outwards(mesh, is_free, domain.constrained, 3, result);
+    return result;
+  }
+
+  template NodeVector<2>
+  surface_velocity(const State<2> &, const LiquidDomain<2> &, const NodeVector<2> &, const double);
+  template NodeVector<3>
+  surface_velocity(const State<3> &, const LiquidDomain<3> &, const NodeVector<3> &, const double);
+} // namespace treacle

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/transport/time_step.h>
+
+namespace treacle
+{
+  template <int dim>
+  void
+  TimeStep<dim>::Parameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.add_parameter("End time", end_time, "When the run ends (s).", Patterns::Double(0));
+    prm.add_parameter("Frame interval",
+                      frame_interval,
+                      "Time between two frames of output (s).",
+                      Patterns::Double(1e-12));
+    prm.add_parameter("Maximum CFL number",
+                      cfl,
+                      "Finest leaves that the fastest liquid crosses in a step.",
+                      Patterns::Double(1e-3, 100));
+    prm.add_parameter("Maximum time step",
+                      maximum,
+                      "Largest size of a step (s).",
+                      Patterns::Double(1e-12));
+    prm.add_parameter("Time scheme",
+                      scheme,
+                      "BDF2 is of second order: the derivative of the velocity along paths takes "
+                      "in the step before, and the surface moves with the velocity of the step's middle. "
+                      "backward Euler is of first order, and forgets at once.",
+                      Patterns::Selection("BDF2|backward Euler"));
+  }
+
+  template <int dim>
+  double
+  TimeStep<dim>::next(const State<dim>        &state,
+                      const LiquidDomain<dim> &domain,
+                      const unsigned int       frame) const
+  {
+    // the speed at the end of the step counts: v dt + g dt^2 = CFL h
+    const double     v        = maximum_speed(state, domain);
+    const double     g        = domain.scene.gravity(domain.mesh.middle(), state.time).norm();
+    const double     distance = prm.cfl * domain.mesh.finest_size();
+    double           dt       = prm.maximum;
+    if (v + std::sqrt(v * v + 4 * g * distance) > 0)
+      dt = std::min(dt, 2 * distance / (v + std::sqrt(v * v + 4 * g * distance)));
+
+    // equal steps to the frame, or to where an emitter starts or stops
+    const double left =
+      std::min(frame_time(frame), domain.scene.next_switch(state.time)) - state.time;
+    return left / std::max(1., std::ceil(left / dt - 1e-6));
+  }
+
+  template <int dim>
+  double
+  TimeStep<dim>::reach(const Mesh<dim> &mesh) const
+  {
+    // BDF2 asks for the velocity before of where the surface will be
+    return ((is_second_order() ? 2 : 1) * prm.cfl + 3 * (mesh.surface_size() / mesh.finest_size())) * mesh.finest_size();
+  }
+
+  template <int dim>
+  double
+  maximum_speed(const State<dim> &state, const LiquidDomain<dim> &domain)
+  {
+    double largest = 0;
+    for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
+      if (domain.is_active_node[node])
+        largest = std::max(largest, state.v.value(node).norm());
+    return Utilities::MPI::max(largest, domain.mesh.communicator());
+  }
+
+  template class TimeStep<2>;
+  template class TimeStep<3>;
+  template double
+  maximum_speed(const State<2> &, const LiquidDomain<2> &);
+  template double
+  maximum_speed(const State<3> &, const LiquidDomain<3> &);
+} // namespace treacle

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/viscosity/node_system.h>
+
+namespace treacle
+{
+  template <int dim>
+  NodeSystem<dim>::NodeSystem(const LiquidDomain<dim> &domain)
+    : domain(domain)
+    , numbering(domain.mesh.nodes, domain.is_active_node, dim)
+    , owned_nodes(numbering.owned)
+    , number(numbering.number)
+    , rows(numbering.rows)
+    , slot(domain.mesh.node_position.size(), invalid)
+  {
+    const Mesh<dim>        &mesh = domain.mesh;
+    std::vector<LocalIndex> columns;
+    for (const LocalIndex node : owned_nodes)
+      {
+        columns.clear();
+        for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+          if (domain.is_active_cell[mesh.node_cells[k]])
+            columns.insert(columns.end(),
+                           mesh.cell_nodes[mesh.node_cells[k]].begin(),
+                           mesh.cell_nodes[mesh.node_cells[k]].end());
+        std::sort(columns.begin(), columns.end());
+        const auto n_columns = std::unique(columns.begin(), columns.end()) - columns.begin();
+        row_lengths.insert(row_lengths.end(), dim, dim * n_columns);
+      }
+  }
+
+  template <int dim>
+  void
+  NodeSystem<dim>::assemble_node(const Mass                   mass,
+                                 const Stiffness             &stiffness,
+                                 const std::vector<double>   &face_mass,
+                                 const LocalIndex             node,
+                                 std::vector<LocalIndex>     &columns,
+                                 std::vector<Tensor<2, dim>> &blocks,
+                                 Tensor<1, dim>              &wall_force) const
+  {
+    const Mesh<dim> &mesh = domain.mesh;
+    columns.assign(1, node);
+    blocks.assign(1, Tensor<2, dim>());
+    wall_force          = 0;
+    slot[node]          = 0;
+    const auto block_of = [&](const LocalIndex other) -> Tensor<2, dim> & {
+      if (slot[other] == invalid)
+        {
+          slot[other] = columns.size();
+          columns.push_back(other);
+          blocks.emplace_back();
+        }
+      return blocks[slot[other]];
+    };
+
+    for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+      {
+        const LocalIndex c = mesh.node_cells[k];
+        if (!domain.is_active_cell[c])
+          continue;
+        const auto &nodes = mesh.cell_nodes[c];
+        const unsigned int i = std::find(nodes.begin(), nodes.end(), node) - nodes.begin();
+        const double       strain   = stiffness.strain.empty() ? 0 : stiffness.strain[c];
+        const double       gradient = stiffness.gradient.empty() ? 0 : stiffness.gradient[c];
+        const auto         stiff = [&](const Tensor<1, dim> &g, const Tensor<1, dim> &other) {
+          return (strain + gradient) * (g * other) * Tensor<2, dim>(unit_symmetric_tensor<dim>()) +
+                 strain * outer_product(other, g);
+        };
+        const auto parts = domain.cut_cells.parts(c);
+        // nodes in solids have rows of their own, for which any scale will do
+        if (parts.size() == 0 || domain.solid_distance[node] <= 0)
+          {
+            const auto &g = mesh.cell_gradients[c];
+            for (unsigned int j = 0; j <= dim; ++j)
+              block_of(nodes[j]) += stiff(g[i], g[j]);
+          }
+        for (const auto &part : parts)
+          for (unsigned int k = 0; k <= dim; ++k)
+            if (part.vertex[k] == i)
+              for (unsigned int l = 0; l <= dim; ++l)
+                {
+                  const Tensor<2, dim> block =
+                    part.fraction * stiff(part.gradient[k], part.gradient[l]);
+                  if (part.vertex[l] == CutCells<dim>::on_wall)
+                    wall_force -= block * part.velocity[l];
+                  else
+                    block_of(nodes[part.vertex[l]]) += block;
+                }
+      }
+
+    if (mass == Mass::nodes)
+      for (unsigned int d = 0; d < dim; ++d)
+        blocks[0][d][d] += domain.node_mass[node];
+    else if (mass == Mass::faces)
+      for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+        for (const LocalIndex f : mesh.cell_faces[mesh.node_cells[k]])
+          {
+            const auto &nodes = mesh.face_nodes[f];
+            if (!domain.is_liquid_face(f) || mesh.face_cells[f][0] != mesh.node_cells[k] ||
+                std::find(nodes.begin(), nodes.end(), node) == nodes.end())
+              continue;
+            const Tensor<1, dim> &n = mesh.face_normal[f];
+            const Tensor<2, dim>  m = face_mass[f] / (dim * dim) * outer_product(n, n);
+            for (const LocalIndex other : nodes)
+              block_of(other) += m;
+          }
+    for (const LocalIndex other : columns)
+      slot[other] = invalid;
+  }
+
+  template <int dim>
+  typename NodeSystem<dim>::Assembled
+  NodeSystem<dim>::assemble(const Mass                 mass,
+                            const Stiffness           &stiffness,
+                            const std::vector<double> &face_mass) const
+  {
+    const Mesh<dim>            &mesh = domain.mesh;
+    Assembled                   result;
+    std::vector<LocalIndex>     columns;
+    std::vector<Tensor<2, dim>> blocks;
+
+    result.matrix =
+      std::make_unique<TrilinosWrappers::SparseMatrix>(rows, rows, mesh.communicator(), row_lengths);
+    result.shift.reinit(rows, mesh.communicator());
+
+    const bool decoupled = mass != Mass::faces && stiffness.strain.empty();
+    const auto is_constrained = [&](const LocalIndex node, const unsigned int d) {
+      return (domain.constrained[node] >> d & 1) != 0;
+    };
+    Tensor<1, dim>           wall_force;
+    std::vector<GlobalIndex> indices;
+    std::vector<double>      values;
+    for (unsigned int i = 0; i < owned_nodes.size(); ++i)
+      {
+        const LocalIndex node = owned_nodes[i];
+        assemble_node(mass, stiffness, face_mass, node, columns, blocks, wall_force);
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            const GlobalIndex row = dim * number[node] + a;
+            // 1 for a component that nothing holds, lest the matrix be singular
+            const double diagonal = blocks[0][a][a] > 0 ? blocks[0][a][a] : 1;
+            indices.assign(1, row);
+            values.assign(1, diagonal);
+            if (!is_constrained(node, a))
+              result.shift.local_element(dim * i + a) += wall_force[a];
+            for (unsigned int k = 0; k < columns.size() && !is_constrained(node, a); ++k)
+              for (unsigned int b = decoupled ? a : 0; b < (decoupled ? a + 1 : dim); ++b)
+                if (is_constrained(columns[k], b))
+                  result.shift.local_element(dim * i + a) -=
+                    blocks[k][a][b] * domain.prescribed[columns[k]][b];
+                else if (k != 0 || a != b)
+                  {
+                    indices.push_back(dim * number[columns[k]] + b);
+                    values.push_back(blocks[k][a][b]);
+                  }
+            result.matrix->set(row, indices.size(), indices.data(), values.data(), false);
+          }
+      }
+    result.matrix->compress(VectorOperation::insert);
+    return result;
+  }
+
+  template <int dim>
+  Vector
+  NodeSystem<dim>::unknowns(const NodeVector<dim> &v) const
+  {
+    Vector x(rows, domain.mesh.communicator());
+    for (unsigned int i = 0; i < owned_nodes.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        x.local_element(dim * i + d) = domain.constrained[owned_nodes[i]] >> d & 1 ?
+                                         domain.prescribed[owned_nodes[i]][d] :
+                                         v.component[d].local_element(owned_nodes[i]);
+    return x;
+  }
+
+  template <int dim>
+  void
+  NodeSystem<dim>::to_nodes(const Vector &x, NodeVector<dim> &v) const
+  {
+    for (unsigned int i = 0; i < owned_nodes.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        v.component[d].local_element(owned_nodes[i]) = x.local_element(dim * i + d);
+    v.update_ghost_values();
+  }
+
+  template <int dim>
+  Vector
+  NodeSystem<dim>::right_hand_side(const std::vector<Tensor<1, dim>> &momentum,
+                                   const Assembled                   &assembled) const
+  {
+    Vector b(assembled.shift);
+    for (unsigned int i = 0; i < owned_nodes.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const LocalIndex node = owned_nodes[i];
+          if (domain.constrained[node] >> d & 1)
+            b.local_element(dim * i + d) =
+              assembled.matrix->diag_element(dim * number[node] + d) * domain.prescribed[node][d];
+          else
+            b.local_element(dim * i + d) += momentum[node][d];
+        }
+    return b;
+  }
+
+  template <int dim>
+  std::vector<Tensor<1, dim>>
+  NodeSystem<dim>::face_momentum(const Vector &u, const std::vector<double> &face_mass) const
+  {
+    const Mesh<dim>            &mesh = domain.mesh;
+    std::vector<Tensor<1, dim>> momentum(mesh.node_position.size());
+    // faces of ghosts too: all that touch an owned node are known
+    for (LocalIndex f = 0; f < mesh.face_nodes.size(); ++f)
+      if (domain.is_liquid_face(f))
+        for (const LocalIndex node : mesh.face_nodes[f])
+          momentum[node] += face_mass[f] / dim * u.local_element(f) * mesh.face_normal[f];
+    return momentum;
+  }
+
+  template <int dim>
+  NearNullSpace
+  NodeSystem<dim>::stress_free_motions(const Stiffness &stiffness) const
+  {
+    NearNullSpace space;
+    space.n_components   = dim;
+    space.n_vectors      = !stiffness.gradient.empty() ? dim : dim == 2 ? 3 : 6;
+    const std::size_t n  = dim * owned_nodes.size();
+    const Point<dim>  origin = domain.mesh.middle();
+    space.vectors.assign(space.n_vectors * n, 0);
+    for (unsigned int i = 0; i < owned_nodes.size(); ++i)
+      {
+        const Tensor<1, dim> r = domain.mesh.node_position[owned_nodes[i]] - origin;
+        const auto           set = [&](const unsigned int k, const unsigned int d, const double value) {
+          if ((domain.constrained[owned_nodes[i]] >> d & 1) == 0)
+            space.vectors[k * n + dim * i + d] = value;
+        };
+        for (unsigned int d = 0; d < dim; ++d)
+          set(d, d, 1);
+        for (unsigned int k = dim; k < space.n_vectors; ++k)
+          {
+            const unsigned int a = (k - dim) % dim, b = (k - dim + 1) % dim;
+            set(k, a, -r[b]);
+            set(k, b, r[a]);
+          }
+      }
+    return space;
+  }
+
+  template class NodeSystem<2>;
+  template class NodeSystem<3>;
+} // namespace treacle

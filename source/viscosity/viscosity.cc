@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/viscosity/auxiliary_space.h>
+#include <treacle/viscosity/hybrid.h>
+#include <treacle/viscosity/viscosity.h>
+
+namespace treacle
+{
+  namespace
+  {
+    /// Solve for the node velocity and set state.v to it; add to each liquid face
+    /// what P makes of the change (FLIP), or set it to P v (PIC).
+    template <int dim>
+    unsigned int
+    solve(State<dim>                                &state,
+          const NodeSystem<dim>                     &system,
+          const typename NodeSystem<dim>::Assembled &assembled,
+          const NearNullSpace                       &null_space,
+          const std::vector<Tensor<1, dim>>         &momentum,
+          const bool                                 flip,
+          const LinearSolver::Parameters            &prm)
+    {
+      const LinearSolver solver(prm, "Viscosity", *assembled.matrix, null_space);
+      Vector             x          = system.unknowns(state.v);
+      const unsigned int iterations = solver.solve(x, system.right_hand_side(momentum, assembled));
+      const NodeVector<dim> old     = state.v;
+      old.update_ghost_values();
+      system.to_nodes(x, state.v);
+
+      const LiquidDomain<dim> &domain = system.domain;
+      for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
+        if (domain.is_liquid_face(f))
+          {
+            double &u = state.u.local_element(f);
+            u         = face_velocity(domain.mesh, state.v, f) +
+                (flip ? u - face_velocity(domain.mesh, old, f) : 0.);
+          }
+      state.u.update_ghost_values();
+      return iterations;
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  Viscosity<dim>::Parameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Viscosity");
+    prm.add_parameter(
+      "Mapping",
+      mapping,
+      "How viscosity is carried between face and node velocity: by a fit of the "
+      "node velocity to the faces, exact for rigid motions, or by least squares at "
+      "each node; the faces receive the change (FLIP) or the value (PIC). Face "
+      "coupled: the least squares are part of the implicit system, whose unknowns "
+      "are the faces. Hybrid: the nodes drag the faces along in one implicit system, exact for "
+      "rigid motions too.",
+      Patterns::Selection(
+        "face coupled|face fitted FLIP|face fitted PIC|hybrid|node FLIP|node PIC"));
+    prm.add_parameter("Stress model",
+                      stress_model,
+                      "Full: the stress mu (grad u + grad u^T). Laplacian: div(mu grad u) for "
+                      "each component, which damps rotation where the liquid is free; for comparison.",
+                      Patterns::Selection("full|laplacian"));
+    prm.add_parameter("Solid walls",
+                      solid_walls,
+                      "Where solids hold the liquid: at their walls, which cut cells, or at the nodes "
+                      "inside them, to first order.",
+                      Patterns::Selection("cut cells|nodes"));
+    prm.add_parameter("Element weighting",
+                      element_weighting,
+                      "Whether the stiffness of a cell that the surface cuts is scaled by its "
+                      "liquid fraction or kept whole.",
+                      Patterns::Selection("liquid fraction|full"));
+    prm.leave_subsection();
+    solver.add_parameters(prm,
+                          "Viscosity",
+                          " The mapping face coupled takes amg as a preconditioner of MINRES at the "
+                          "nodes, and incomplete Cholesky as the diagonal.");
+  }
+
+  template <int dim>
+  unsigned int
+  Viscosity<dim>::advance(State<dim>         &state,
+                          const FaceFit<dim> &fit,
+                          const double        dt,
+                          Reactions<dim>     *reactions) const
+  {
+    return prm.mapping == "hybrid"           ? advance_hybrid(state, fit, dt, reactions) :
+           prm.mapping == "face coupled"     ? advance_face_coupled(state, fit, dt, reactions) :
+           prm.mapping.rfind("node", 0) == 0 ? advance_nodes(state, fit, dt, reactions) :
+                                               advance_face_fitted(state, fit, dt, reactions);
+  }
+
+  template <int dim>
+  typename NodeSystem<dim>::Stiffness
+  Viscosity<dim>::stiffness(const LiquidDomain<dim> &domain, const double dt) const
+  {
+    const bool                          whole = prm.element_weighting == "full";
+    typename NodeSystem<dim>::Stiffness result;
+    std::vector<double> &weight = prm.stress_model == "full" ? result.strain : result.gradient;
+    weight.resize(domain.viscosity.size());
+    for (LocalIndex c = 0; c < weight.size(); ++c)
+      if (domain.liquid_volume[c] > 0)
+        weight[c] =
+          dt * domain.viscosity[c] * (whole ? domain.open_volume(c) : domain.liquid_volume[c]);
+    return result;
+  }
+
+  template <int dim>
+  unsigned int
+  Viscosity<dim>::advance_face_fitted(State<dim>         &state,
+                                      const FaceFit<dim> &fit,
+                                      const double        dt,
+                                      Reactions<dim>     *reactions) const
+  {
+    const LiquidDomain<dim> &domain = fit.domain;
+    const bool               flip   = prm.mapping == "face fitted FLIP";
+    if (flip)
+      fit.solve(state.u, state.v);
+    const Vector          old_u = state.u;
+    const NodeVector<dim> old_v = state.v;
+    old_u.update_ghost_values();
+    old_v.update_ghost_values();
+
+    auto stiffness = this->stiffness(domain, dt);
+    stiffness.strain.resize(domain.viscosity.size());
+    for (LocalIndex c = 0; c < stiffness.strain.size(); ++c)
+      stiffness.strain[c] += fit.regularization()[c];
+    const unsigned int iterations =
+      solve(state,
+            fit.system,
+            fit.system.assemble(NodeSystem<dim>::Mass::faces, stiffness),
+            fit.system.stress_free_motions(stiffness),
+            fit.system.face_momentum(state.u),
+            flip,
+            prm.solver);
+    if (reactions != nullptr)
+      {
+        reactions->add_stress(stiffness, state.v);
+        if (flip)
+          reactions->add_stress({fit.regularization(), {}}, old_v, -1);
+        reactions->add_inertia(fit.system, old_u, state.u);
+      }
+    return iterations;
+  }
+
+  template <int dim>
+  unsigned int
+  Viscosity<dim>::advance_hybrid(State<dim>         &state,
+                                 const FaceFit<dim> &fit,
+                                 const double        dt,
+                                 Reactions<dim>     *reactions) const
+  {
+    const auto         stiffness = this->stiffness(fit.domain, dt);
+    const Hybrid<dim>  hybrid(fit.system, stiffness, dt, Hybrid<dim>::Faces::all);
+    const LinearSolver solver(prm.solver,
+                              "Viscosity",
+                              *hybrid.stiff.matrix,
+                              fit.system.stress_free_motions(stiffness));
+    Vector             x          = fit.system.unknowns(state.v);
+    const unsigned int iterations = solver.solve(x, hybrid.right_hand_side(state.u, state.v));
+    fit.system.to_nodes(x, state.v);
+    hybrid.drag_faces(state, stiffness, reactions);
+    return iterations;
+  }
+
+  template <int dim>
+  unsigned int
+  Viscosity<dim>::advance_nodes(State<dim>         &state,
+                                const FaceFit<dim> &fit,
+                                const double        dt,
+                                Reactions<dim>     *reactions) const
+  {
+    const LiquidDomain<dim> &domain = fit.domain;
+    LeastSquares<dim>(domain).apply(state.u, state.v);
+    std::vector<Tensor<1, dim>> momentum(domain.node_mass.size());
+    for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
+      momentum[node] = domain.node_mass[node] * state.v.value(node);
+
+    const auto         stiffness = this->stiffness(domain, dt);
+    const unsigned int iterations =
+      solve(state,
+            fit.system,
+            fit.system.assemble(NodeSystem<dim>::Mass::nodes, stiffness),
+            fit.system.stress_free_motions(stiffness),
+            momentum,
+            prm.mapping == "node FLIP",
+            prm.solver);
+    if (reactions != nullptr)
+      reactions->add_stress(stiffness, state.v);
+    return iterations;
+  }
+
+  template <int dim>
+  unsigned int
+  Viscosity<dim>::advance_face_coupled(State<dim>         &state,
+                                       const FaceFit<dim> &fit,
+                                       const double        dt,
+                                       Reactions<dim>     *reactions) const
+  {
+    const LiquidDomain<dim> &domain    = fit.domain;
+    const auto               stiffness = this->stiffness(domain, dt);
+    const FaceCoupled<dim>   face_coupled(fit.system, stiffness);
+    const auto               matrix = [&](Vector &y, const Vector &x) { face_coupled.vmult(y, x); };
+
+    LinearSolver::Parameters parameters = prm.solver;
+    LinearSolver::Operator   preconditioner = [](Vector &z, const Vector &r) { z = r; };
+    if (parameters.preconditioner != "none")
+      {
+        parameters.preconditioner = "jacobi";
+        preconditioner = [d = face_coupled.inverse_diagonal()](Vector &z, const Vector &r) {
+          z = r;
+          z.scale(d);
+        };
+      }
+
+    Vector u = domain.mesh.zeros(domain.mesh.faces);
+    for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
+      if (domain.is_liquid_face(f))
+        u.local_element(f) = state.u.local_element(f);
+    unsigned int iterations = 0;
+    if (prm.solver.preconditioner == "amg")
+      iterations = AuxiliarySpace<dim>(face_coupled, stiffness, prm.solver).solve(u);
+    else
+      {
+        const Vector b = face_coupled.right_hand_side(u);
+        iterations =
+          LinearSolver(parameters, "Viscosity", matrix, preconditioner).solve(u, b);
+      }
+
+    for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
+      if (domain.is_liquid_face(f))
+        state.u.local_element(f) = u.local_element(f);
+    state.u.update_ghost_values();
+    face_coupled.H.apply(state.u, state.v);
+    if (reactions != nullptr)
+      reactions->add_stress(stiffness, state.v);
+    return iterations;
+  }
+
+  template class Viscosity<2>;
+  template class Viscosity<3>;
+} // namespace treacle

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+// Node velocity from exact face velocity on a free disc and sphere, graded from the surface:
+// the error of each reconstruction, in the norm of the node mass relative to the field, and
+// at the worst active node. Arguments: dimension, levels.
+
+#include "../tests.h"
+#include "../body.h"
+
+#include <iomanip>
+
+using namespace tests;
+
+namespace
+{
+  template <int dim>
+  Tensor<1, dim>
+  rigid(const Point<dim> &x)
+  {
+    Tensor<1, dim> u;
+    u[0] = 0.5 - x[1];
+    u[1] = x[0] - 0.5;
+    return u;
+  }
+
+  template <int dim>
+  Tensor<1, dim>
+  smooth(const Point<dim> &x)
+  {
+    Tensor<1, dim> u;
+    for (unsigned int d = 0; d < dim; ++d)
+      u[d] = std::sin(5 * x[(d + 1) % dim] + d) + std::cos(4 * x[d]);
+    return u;
+  }
+
+  template <int dim>
+  void
+  check(const MPI_Comm &comm, const std::string &method, const unsigned int level)
+  {
+    Body<dim> body(comm,
+                   graded_mesh(level) + "subsection Liquid 1\nset Radius = 0.3\nset Centre = " +
+                     (dim == 2 ? "0.503, 0.491" : "0.503, 0.491, 0.512") +
+                     "\nend\nsubsection Advection\nset Reconstruction = " + method + "\nend\n" +
+                     tolerance("1e-12"));
+    const Mesh<dim> &mesh = *body.state.mesh;
+    out() << dim << "D, level " << level << ", " << method << ":" << std::setprecision(3);
+    for (const auto &field : {&rigid<dim>, &smooth<dim>})
+      {
+        body.set_velocity(field);
+        Reconstruction<dim>(body.prm.dynamics.reconstruction).advance(body.state, body.fit, 0);
+        double error = 0, size = 0, worst = 0;
+        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+          if (body.domain.is_active_node[node])
+            {
+              const Tensor<1, dim> u = field(mesh.node_position[node]);
+              const Tensor<1, dim> e = body.state.v.value(node) - u;
+              error += body.domain.node_mass[node] * e.norm_square();
+              size += body.domain.node_mass[node] * u.norm_square();
+              worst = std::max(worst, e.norm());
+            }
+        error = std::sqrt(Utilities::MPI::sum(error, comm) / Utilities::MPI::sum(size, comm));
+        worst = Utilities::MPI::max(worst, comm);
+        out() << (field == &rigid<dim> ? " rigid " : ", smooth ");
+        if (worst < 1e-9)
+          out() << "below 1e-9";
+        else
+          out() << error << " and " << worst;
+      }
+    out() << std::endl;
+  }
+
+  template <int dim>
+  void
+  check_all(const MPI_Comm &comm, const std::vector<unsigned int> &levels)
+  {
+    for (const char *method : {"face fitted", "least squares", "two step"})
+      for (const unsigned int level : levels)
+        check<dim>(comm, method, level);
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  std::vector<unsigned int>        levels;
+  for (int i = 2; i < argc; ++i)
+    levels.push_back(std::stoi(argv[i]));
+  if (argc > 2 && argv[1][0] == '2')
+    check_all<2>(MPI_COMM_WORLD, levels);
+  else if (argc > 2)
+    check_all<3>(MPI_COMM_WORLD, levels);
+  else
+    on_1_2_3_ranks([](const MPI_Comm &comm) {
+      check_all<2>(comm, {4, 5});
+      check_all<3>(comm, {3, 4});
+    });
+}

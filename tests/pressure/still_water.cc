@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+// Water at rest on a graded mesh with a sphere immersed, flat and with gravity
+// tilted as the surface is: it stays at rest to rounding where no theta is
+// clamped (case C1 of the verification). Argument: number of steps, level.
+
+#include "../tests.h"
+#include "../run_scene.h"
+
+using namespace tests;
+
+template <int dim>
+void
+check(const MPI_Comm &comm, const bool tilted, const unsigned int n_steps, const unsigned int level)
+{
+  Tensor<1, dim> normal;
+  normal[dim - 1] = 1;
+  if (tilted)
+    for (unsigned int d = 0; d + 1 < dim; ++d)
+      normal[d] = 0.2 / (d + 1);
+  normal /= normal.norm();
+  std::ostringstream text, components;
+  text.precision(17);
+  const char *separator = "";
+  for (unsigned int d = 0; d < dim; ++d, separator = "; ")
+    {
+      components.precision(17);
+      components << separator << -9.81 * normal[d];
+    }
+  text << "set End time = " << 0.01 * n_steps << "\nset Frame interval = 10\n"
+       << "set Maximum time step = 0.01\n"
+       << "subsection Domain\nset Wall condition = free slip\nend\n"
+       << "subsection Mesh\nset Surface level = " << level
+       << "\nset Interior level = 2\nset Air level = 2\nset Band width = 2\nend\n"
+       << "subsection Material\nset Viscosity = 1\nend\n"
+       << "subsection Gravity\nset Acceleration = " << components.str() << "\nend\n"
+       << "subsection Liquid 1\nset Shape = half space\nset Centre = "
+       << (dim == 2 ? "0.5, 0.51" : "0.5, 0.5, 0.51") << "\nset Normal = ";
+  for (unsigned int d = 0; d < dim; ++d)
+    text << (d ? ", " : "") << normal[d];
+  text << "\nend\nsubsection Solid 1\nset Shape = sphere\nset Radius = 0.15\nset Centre = "
+       << (dim == 2 ? "0.45, 0.3" : "0.45, 0.5, 0.3") << "\nend\n"
+       << tolerance("1e-13");
+
+  const auto   rows  = run_scene<dim>(comm, text.str(), 1);
+  const double speed = rows.back().at("Maximum speed (m/s)") / std::sqrt(9.81 * 0.51);
+  const double clamped = rows.back().at("Clamped faces");
+  if (n_steps > 10) // for a person
+    std::cout << dim << "D " << (tilted ? "tilted" : "flat") << ": maximum speed " << speed
+              << " sqrt(g h), " << clamped << " clamped faces" << std::endl;
+  out() << dim << "D " << (tilted ? "tilted" : "flat") << ": " << rows.size() - 1 << " steps, "
+        << clamped << " clamped faces, speed "
+        << (speed < 1e-8 ? "below 1e-8" : speed < 1e-3 ? "below 1e-3" : "TOO LARGE")
+        << " sqrt(g h)" << std::endl;
+}
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const unsigned int n_steps = argc > 1 ? std::stoi(argv[1]) : 3;
+  const unsigned int level   = argc > 2 ? std::stoi(argv[2]) : 3;
+  on_1_2_3_ranks([&](const MPI_Comm &comm) {
+    for (const bool tilted : {false, true})
+      {
+        check<2>(comm, tilted, n_steps, level);
+        check<3>(comm, tilted, n_steps, level);
+      }
+  });
+}

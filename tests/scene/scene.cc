@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+// What a scene says after its subsections were parsed, and how it refuses.
+
+#include <treacle/base/exceptions.h>
+#include <treacle/scene/scene.h>
+
+#include "../tests.h"
+
+using namespace treacle;
+
+template <int dim>
+Scene<dim>
+make(const std::string &text,
+     const unsigned int n_liquids = 1,
+     const unsigned int n_solids  = 0)
+{
+  ParameterHandler                prm;
+  typename Scene<dim>::Parameters parameters;
+  parameters.add_parameters(prm, n_liquids, n_solids);
+  prm.parse_input_from_string(text);
+  return Scene<dim>(parameters);
+}
+
+std::string
+in(const std::string &subsection, const std::string &entry)
+{
+  return "subsection " + subsection + "\nset " + entry + "\nend\n";
+}
+
+template <int dim>
+void
+show_error(const std::string &text, const unsigned int n_liquids = 1)
+{
+  try
+    {
+      make<dim>(text, n_liquids);
+      tests::out() << "no error: " << text << std::endl;
+    }
+  catch (const UserError &error)
+    {
+      tests::out() << error.what() << std::endl;
+    }
+}
+
+template <int dim>
+void
+show_walls(const std::string &condition)
+{
+  const Scene<dim> scene = make<dim>(in("Domain", "Wall condition = " + condition));
+  tests::out() << condition << " ->";
+  for (unsigned int side = 0; side < 2 * dim; ++side)
+    tests::out() << (scene.no_slip(side) ? " no" : " free");
+  tests::out() << std::endl;
+}
+
+template <int dim>
+void
+show_defaults()
+{
+  const Scene<dim> scene = make<dim>("");
+  const Point<dim> x     = diagonal_point<dim>(0.5);
+  tests::out() << "dimension " << dim << std::endl
+               << "box " << scene.lower_corner() << " to " << scene.upper_corner()
+               << std::endl
+               << "liquid " << scene.liquid_distance(x) << ", velocity "
+               << scene.initial_velocity(x) << std::endl
+               << "solid " << scene.has_solids() << ' '
+               << (scene.solid_distance(x, 0.) > 1e10) << std::endl
+               << "material " << scene.density(x, 0.) << ' ' << scene.viscosity(x, 0.)
+               << ", gravity " << scene.gravity(x, 0.) << std::endl;
+}
+
+void
+show_rich_scene()
+{
+  // a copy, so that the original's parameters and parsers are gone
+  const Scene<3> scene =
+    make<3>(in("Domain", "Lower corner = -1, -2, -3") +
+              in("Material", "Density = 1000 + 10*z") +
+              in("Material", "Viscosity = (x >= 0 && x == x) ? 2*max(pi, 1) : exp(-t)") +
+              in("Gravity", "Acceleration = sin(pi*t); 2; if(x < 0, -z, t)") +
+              in("Liquid 1", "Centre = 0, 0, 0") +
+              in("Liquid 1", "Velocity = -y + 0.1; x; t + 3") +
+              in("Liquid 2", "Shape = box") + in("Liquid 2", "Velocity = 7; 8; 9") +
+              in("Solid 1", "Shape = half space") + in("Solid 1", "Centre = 0, 0, -1") +
+              in("Solid 2", "Invert = true") + in("Solid 2", "Radius = 3"),
+            2,
+            2);
+  tests::out() << "rich scene, box from " << scene.lower_corner() << std::endl;
+  for (const Point<3> &x : {Point<3>(0.1, 0.2, 0.3), Point<3>(-0.1, 0.6, 0.6)})
+    for (const double t : {0., 0.5})
+      tests::out() << scene.liquid_distance(x) << " | " << scene.initial_velocity(x)
+                   << " | " << scene.solid_distance(x, t) << " | "
+                   << scene.solid_velocity(x, t) << " | " << scene.density(x, t) << " | "
+                   << scene.viscosity(x, t) << " | " << scene.gravity(x, t) << std::endl;
+
+  const Scene<2> negative = make<2>(in("Material", "Density = x"));
+  try
+    {
+      negative.density(Point<2>(-1, 0), 0.);
+    }
+  catch (const UserError &error)
+    {
+      tests::out() << error.what() << std::endl;
+    }
+}
+
+int
+main(int argc, char *argv[])
+{
+  const Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+
+  show_defaults<2>();
+  show_defaults<3>();
+  show_rich_scene();
+
+  tests::out() << "walls" << std::endl;
+  show_walls<2>("free slip");
+  show_walls<2>("top: free slip");
+  show_walls<3>("no slip");
+  show_walls<3>("default: no slip; left, right: free slip");
+  show_walls<3>("default: free slip ; front,top:no slip;");
+  show_walls<3>("back: free slip; free slip; bottom: no slip");
+
+  tests::out() << "errors" << std::endl;
+  show_error<3>(in("Domain", "Wall condition = sticky"));
+  show_error<3>(in("Domain", "Wall condition ="));
+  show_error<2>(in("Domain", "Wall condition = front: no slip"));
+  show_error<3>(in("Domain", "Wall condition = left, top: free slip; top: no slip"));
+  show_error<3>(in("Domain", "Wall condition = no slip; default: free slip"));
+  show_error<3>(in("Domain", "Upper corner = 1, 0, 1"));
+  show_error<3>(in("Gravity", "Acceleration = 0; -9.81"));
+  show_error<2>(in("Gravity", "Acceleration = 0; 0; -9.81"));
+  show_error<2>(in("Gravity", "Acceleration = 0, -9.81"));
+  show_error<2>(in("Liquid 1", "Velocity = 1; 2*q"));
+  show_error<2>(in("Liquid 1", "Velocity = 1;; 2"));
+  show_error<2>(in("Liquid 1", "Radius = -0.5"));
+  show_error<2>(in("Material", "Density = 0"));
+  show_error<3>(in("Material", "Density = water"));
+  show_error<3>(in("Material", "Density = 0,5"));
+  show_error<3>(in("Material", "Density = x=5"));
+  show_error<3>(in("Material", "Viscosity = -1"));
+  show_error<3>(in("Material", "Viscosity ="));
+  show_error<3>("", 0);
+}

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+// What emitters pour out: against the ceiling and in the air, with a stop; the volume
+// is area times velocity times time. One that starts late brings its own volume with it.
+// And liquids of two viscosities that travel: the jump between them smears, with first
+// order in the leaf.
+// Argument: level.
+
+#include "../tests.h"
+#include "../run_scene.h"
+
+#include <treacle/surface/material_extension.h>
+#include <treacle/transport/advection.h>
+#include <treacle/transport/remesh.h>
+
+using namespace tests;
+
+std::string
+mesh_section(const unsigned int level, const unsigned int interior_level = 3)
+{
+  return "subsection Mesh\nset Surface level = " + std::to_string(level) +
+         "\nset Interior level = " + std::to_string(interior_level) + "\nset Air level = 2\nset Band width = 2\nend\n";
+}
+
+template <int dim>
+void
+pour(const MPI_Comm &comm, const bool at_ceiling, const unsigned int level)
+{
+  const std::string xy = dim == 2 ? "0.52" : "0.52, 0.47", up = at_ceiling ? "0.9" : "0.7";
+  const std::string text =
+    "set End time = 0.1\nset Frame interval = 10\nset Maximum time step = 0.02\n" +
+    mesh_section(level) +
+    "subsection Material\nset Viscosity = 100\nend\nsubsection Emitter 1\nset Shape = box\n"
+    "set Lower corner = " +
+    (dim == 2 ? "0.38" : "0.38, 0.34") + ", " + up + "\nset Upper corner = " +
+    (dim == 2 ? "0.63" : "0.63, 0.59") + ", " + (at_ceiling ? "1.1" : "0.85") + "\nset Velocity = " +
+    (dim == 2 ? "0; -1" : "0; 0; -1") + "\nset Stop time = 0.07\nend\n";
+  const auto        rows = run_scene<dim>(comm, text, 0, 0, 1);
+  const std::string unit = dim == 2 ? " (m^2)" : " (m^3)";
+  const double      expected = 0.07 * std::pow(0.25, dim - 1);
+  const double      emitted  = rows.back().at("Emitted volume" + unit);
+  const double      volume   = rows.back().at("Liquid volume" + unit);
+  const double      first    = rows.front().at("Liquid volume" + unit);
+  if (level > 5 && Utilities::MPI::this_mpi_process(comm) == 0) // for a person
+    std::cout << dim << "D " << at_ceiling << ": emitted " << emitted / expected - 1
+              << ", volume " << (volume - first) / expected - 1 << std::endl;
+  out() << dim << "D " << (at_ceiling ? "at the ceiling" : "in the air") << ": "
+        << rows.size() - 1 << " steps, emitted/expected " << std::setprecision(4)
+        << emitted / expected << ", volume drift "
+        << (std::abs(rows.back().at("Volume drift")) < 1e-3 ? "below 1e-3" : "TOO LARGE")
+        << std::endl;
+}
+
+/// Above a pool, in the air until it starts; nothing corrects the volume.
+void
+pour_late(const MPI_Comm &comm)
+{
+  const auto rows = run_scene<2>(
+    comm,
+    "set End time = 0.08\nset Frame interval = 10\nset Maximum time step = 0.02\n" + mesh_section(5) +
+      "subsection Material\nset Viscosity = 100\nend\nsubsection Surface tracking\n"
+      "set Volume correction = false\nend\nsubsection Liquid 1\nset Shape = half space\n"
+      "set Centre = 0.5, 0.2\nset Normal = 0, 1\nend\nsubsection Emitter 1\nset Shape = box\n"
+      "set Lower corner = 0.4, 0.7\nset Upper corner = 0.6, 0.9\nset Velocity = 0; -0.5\n"
+      "set Start time = 0.04\nend\n",
+    0,
+    1,
+    1);
+  out() << "2D late: emitted/expected " << std::setprecision(3)
+        << rows.back().at("Emitted volume (m^2)") / (0.2 * 0.2 + 0.04 * 0.2 * 0.5) << ", volume drift "
+        << (std::abs(rows.back().at("Volume drift")) < 5e-3 ? "below 5e-3" : "TOO LARGE") << std::endl;
+}
+
+/// A light, thin and a heavy, thick half of a block move together.
+template <int dim>
+void
+carry(const MPI_Comm &comm, const unsigned int level)
+{
+  const std::string text =
+    mesh_section(level, level) +
+    "subsection Material\nset Transport = advected\nset Viscosity = 100\nend\n"
+    "subsection Liquid 1\nset Shape = box\nset Lower corner = " +
+    (dim == 2 ? "0.1, 0.3" : "0.1, 0.3, 0.3") + "\nset Upper corner = " +
+    (dim == 2 ? "0.35, 0.7" : "0.35, 0.7, 0.7") +
+    "\nset Viscosity = 1 + 2*y\nset Density = 500\nend\n"
+    "subsection Liquid 2\nset Shape = box\nset Lower corner = " +
+    (dim == 2 ? "0.35, 0.3" : "0.35, 0.3, 0.3") + "\nset Upper corner = " +
+    (dim == 2 ? "0.6, 0.7" : "0.6, 0.7, 0.7") + "\nend\n";
+  const auto                          prm = parse<dim>(text, 0, 2);
+  const Scene<dim>                    scene(prm.scene);
+  typename Octree<dim>::Parameters    mesh_prm = prm.mesh;
+  mesh_prm.lower_corner = scene.lower_corner();
+  mesh_prm.upper_corner = scene.upper_corner();
+
+  auto             state = std::make_unique<State<dim>>(initial_mesh<dim>(comm, mesh_prm, scene));
+  for (LocalIndex node = 0; node < state->mesh->n_owned_nodes(); ++node)
+    state->phi.local_element(node) = scene.liquid_distance(state->mesh->node_position[node]);
+  state->phi.update_ghost_values();
+  set_initial_material(*state, scene);
+  extend_material(*state, 6);
+  const unsigned int n_steps = 10;
+  Tensor<1, dim>     travelled;
+  for (unsigned int step = 0; step < n_steps; ++step)
+    {
+      for (LocalIndex node = 0; node < state->mesh->n_owned_nodes(); ++node)
+        {
+          Tensor<1, dim> v;
+          v[0] = 1;
+          v[1] = 0.5;
+          state->v.set(node, v);
+        }
+      state->v.update_ghost_values();
+      const LiquidDomain<dim> domain(*state, scene, 0.01);
+      const Advection<dim>    advection(prm.advection, *state, domain, 0.02);
+      const auto mesh = mesh_for_next_surface(*state, scene, advection, {}, 0.02);
+      auto next = std::make_unique<State<dim>>(advection.advance(mesh, 0.3));
+      extend_material(*next, 6);
+      state = std::move(next);
+    }
+  travelled[0] = 0.02 * n_steps;
+  travelled[1] = 0.01 * n_steps;
+
+  const LiquidDomain<dim> domain(*state, scene, 0.01);
+  double mean = 0, largest = 0, total = 0;
+  for (LocalIndex c = 0; c < domain.mesh.n_owned_cells(); ++c)
+    if (domain.liquid_volume[c] > 0)
+      {
+        const Point<dim> start = domain.liquid_centre[c] - travelled;
+        const double     mu    = start[0] < 0.35 ? 1 + 2 * start[1] : 100;
+        const double     error = std::abs(domain.viscosity[c] - mu) / 100;
+        total += domain.liquid_volume[c];
+        mean += error * domain.liquid_volume[c];
+        largest = std::max(largest, domain.viscosity[c]);
+      }
+  largest = Utilities::MPI::max(largest, comm);
+  mean  = Utilities::MPI::sum(mean, comm) / Utilities::MPI::sum(total, comm);
+  if (level > 5 && Utilities::MPI::this_mpi_process(comm) == 0)
+    std::cout << dim << "D: mean error " << mean << std::endl;
+  out() << dim << "D: viscosity at most " << std::setprecision(4) << largest
+        << ", mean error over the jump " << std::setprecision(2) << mean << std::endl;
+}
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const unsigned int level = argc > 1 ? std::stoi(argv[1]) : 4;
+  on_1_2_3_ranks([&](const MPI_Comm &comm) {
+    for (const bool at_ceiling : {true, false})
+      {
+        pour<2>(comm, at_ceiling, level + 1);
+        pour<3>(comm, at_ceiling, level);
+      }
+    pour_late(comm);
+    carry<2>(comm, level + 1);
+    carry<3>(comm, level);
+  });
+}

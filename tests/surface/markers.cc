@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+// Bodies carried along by a prescribed velocity (case C10): what is lost of their
+// volume and shape, with markers and without. For a person: arguments are the case,
+// dim, level, CFL number, method and markers per cell.
+
+#include "../tests.h"
+#include "../run_scene.h"
+
+#include <treacle/surface/redistance.h>
+#include <treacle/surface/surface.h>
+#include <treacle/transport/advection.h>
+#include <treacle/transport/remesh.h>
+
+using namespace tests;
+
+/// A body, and a velocity that brings it back after a period.
+template <int dim>
+struct Case
+{
+  std::string                                                     body;
+  double                                                          period, speed;
+  std::function<Tensor<1, dim>(const Point<dim> &, const double)> velocity;
+};
+
+template <int dim>
+Case<dim>
+find_case(const std::string &name)
+{
+  const double      pi   = numbers::PI;
+  const std::string z    = dim == 3 ? "+(z-0.5)^2" : "";
+  const std::string ball = "sqrt((x-0.5)^2+(y-0.75)^2" + z + ")-0.15";
+  const auto        turn = [=](const Point<dim> &x, const double) {
+    Tensor<1, dim> v;
+    v[0] = 2 * pi * (0.5 - x[1]);
+    v[1] = 2 * pi * (x[0] - 0.5);
+    return v;
+  };
+  if (name == "translation")
+    return {"sqrt((x-0.3)^2+(y-0.3)^2" + z + ")-0.15", 1, 0.4, [](const Point<dim> &, const double t) {
+              Tensor<1, dim> v;
+              v[0] = v[1] = t < 0.5 ? 0.4 : -0.4;
+              return v;
+            }};
+  if (name == "notched")
+    return {"max(" + ball + ", -max(abs(x-0.5)-0.025, y-0.85))", 1, 2.5, turn};
+  if (name.substr(0, 5) == "sheet") // sheet2: two leaves of level 6 thick
+    return {"max(max(abs(x-0.5)-" + std::to_string(std::stod(name.substr(5)) / 128) +
+              ", abs(y-0.7)-0.2)" + (dim == 3 ? ", abs(z-0.5)-0.2)" : ", -1)"),
+            1,
+            2.5,
+            turn};
+  return {ball, 8, 1, [=](const Point<dim> &x, const double t) { // vortex
+            Tensor<1, dim> v;
+            const double   sx = std::sin(pi * x[0]), sy = std::sin(pi * x[1]);
+            v[0] = -sx * sx * std::sin(2 * pi * x[1]) * std::cos(pi * t / 8);
+            v[1] = sy * sy * std::sin(2 * pi * x[0]) * std::cos(pi * t / 8);
+            return v;
+          }};
+}
+
+/// Volumes in parts of the exact body's.
+struct Errors
+{
+  double       volume, shape; ///< what is missing; area of the symmetric difference
+  unsigned int markers, rebuilt, steps;
+  double       seconds; ///< a step
+};
+
+template <int dim>
+Errors
+carry(const MPI_Comm                                  &comm,
+      const std::string                               &name,
+      const unsigned int                               level,
+      const double                                     cfl,
+      const typename SurfaceTracking<dim>::Parameters &tracking_parameters)
+{
+  const Case<dim>                     test = find_case<dim>(name);
+  typename Simulator<dim>::Parameters prm =
+    parse<dim>("subsection Mesh\nset Surface level = " + std::to_string(level) +
+                 "\nset Interior level = 3\nset Air level = 3\nend\nsubsection Liquid 1\n"
+                 "set Shape = expression\nset Expression = " +
+                 test.body + "\nend\n",
+               0);
+  const Scene<dim> scene(prm.scene);
+  prm.mesh.lower_corner = scene.lower_corner();
+  prm.mesh.upper_corner = scene.upper_corner();
+  const SurfaceTracking<dim> tracking(tracking_parameters);
+
+  auto         state = std::make_unique<State<dim>>(initial_mesh<dim>(comm, prm.mesh, scene));
+  const double h     = state->mesh->finest_size(), reach = (cfl + 3) * h;
+  const auto   exact = [&](const Mesh<dim> &mesh) {
+    treacle::Vector phi = mesh.zeros(mesh.nodes);
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      phi.local_element(node) = scene.liquid_distance(mesh.node_position[node]);
+    phi.update_ghost_values();
+    return phi;
+  };
+  state->phi = exact(*state->mesh);
+  redistance(*state, reach);
+  tracking.reseed(*state, scene);
+  const double volume = liquid_volume(*state->mesh, state->phi, scene, state->time);
+
+  Errors             errors{0, 0, 0, 0, 0, 0};
+  const unsigned int n =
+    2 * static_cast<unsigned int>(std::ceil(0.5 * test.period * test.speed / (cfl * h)));
+  const double       dt = test.period / n;
+  Timer              timer(comm);
+  for (; errors.steps < n; ++errors.steps)
+    {
+      for (LocalIndex node = 0; node < state->mesh->n_owned_nodes(); ++node)
+        state->v.set(node, test.velocity(state->mesh->node_position[node], state->time + 0.5 * dt));
+      state->v.update_ghost_values();
+      const LiquidDomain<dim> domain(*state, scene, 0.01);
+      const Advection<dim>    advection(prm.advection, *state, domain, dt);
+      const auto              markers = advection.move_markers();
+      const auto              mesh    = mesh_for_next_surface(*state, scene, advection, markers, dt);
+      errors.rebuilt += mesh != state->mesh;
+      State<dim> next = advection.advance(mesh, reach);
+      next.markers    = to_owners(*mesh, markers);
+      tracking.advance(next, scene, reach, volume);
+      state = std::make_unique<State<dim>>(std::move(next));
+    }
+  errors.seconds = timer.wall_time() / errors.steps;
+  const Mesh<dim> &mesh = *state->mesh;
+  const treacle::Vector wanted = exact(mesh);
+  for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+    {
+      const auto x = mesh.cell_vertices(c);
+      const auto a = mesh.values(c, state->phi), b = mesh.values(c, wanted);
+      errors.shape += liquid_moments<dim>(x, a, b).volume + liquid_moments<dim>(x, b, a).volume;
+    }
+  errors.shape   = Utilities::MPI::sum(errors.shape, comm) / volume;
+  errors.volume  = liquid_volume(*state->mesh, state->phi, scene, state->time) / volume - 1;
+  errors.markers = Utilities::MPI::sum<unsigned int>(state->markers.size(), comm);
+  return errors;
+}
+
+template <int dim>
+void
+print_for_a_person(char **argv)
+{
+  typename SurfaceTracking<dim>::Parameters tracking;
+  tracking.method            = argv[5];
+  tracking.markers_per_cell  = std::stoi(argv[6]);
+  tracking.volume_correction = false;
+  const Errors e = carry<dim>(
+    MPI_COMM_WORLD, argv[1], std::stoi(argv[3]), std::stod(argv[4]), tracking);
+  if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    std::cout << argv[1] << " " << dim << "D, level " << argv[3] << ", CFL " << argv[4] << ", "
+              << argv[5] << ": volume " << e.volume << ", shape " << e.shape << ", "
+              << e.markers << " markers, " << e.rebuilt << " meshes in " << e.steps
+              << " steps of " << e.seconds << " s" << std::endl;
+}
+
+template <int dim>
+void
+check(const MPI_Comm &comm, const std::string &name, const unsigned int level)
+{
+  for (const char *method : {"level set", "marker level set"})
+    {
+      if (dim == 3 && method == std::string("level set"))
+        continue; // for time
+      typename SurfaceTracking<dim>::Parameters tracking;
+      tracking.method            = method;
+      tracking.volume_correction = false;
+      const Errors e             = carry<dim>(comm, name, level, 2, tracking);
+      out() << dim << "D, " << name << ", " << method << ": volume " << std::setprecision(3)
+            << e.volume << ", shape " << e.shape << std::endl;
+    }
+}
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  if (argc > 6)
+    std::stoi(argv[2]) == 2 ? print_for_a_person<2>(argv) : print_for_a_person<3>(argv);
+  else
+    on_1_2_3_ranks([](const MPI_Comm &comm) {
+      check<2>(comm, "translation", 5);
+      check<2>(comm, "notched", 5);
+      check<2>(comm, "sheet4", 5);
+      check<3>(comm, "translation", 4);
+    });
+}
