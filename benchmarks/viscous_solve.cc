@@ -19,7 +19,10 @@ namespace
 {
   template <int dim>
   typename Simulator<dim>::Parameters
-  parameters(const std::string &level)
+  parameters(const std::string &level,
+             const std::string &mapping,
+             const std::string &stress_model,
+             const std::string &preconditioner)
   {
     const std::string liquid =
       dim == 2 ? "set Expression = sqrt((x-0.503)^2 + (y-0.491)^2) - 0.2 - 0.02*sin(20*x)*sin(20*y)\n"
@@ -33,7 +36,11 @@ namespace
     prm.parse_input_from_string(
       "subsection Mesh\nset Surface level = " + level +
       "\nset Interior level = 4\nset Air level = 2\nset Band width = 2\nend\n"
-      "subsection Liquid 1\nset Shape = expression\n" + liquid + "end\n");
+      "subsection Liquid 1\nset Shape = expression\n" + liquid +
+      "end\nsubsection Viscosity\nset Mapping = " + mapping + "\nset Stress model = " +
+      stress_model + "\nend\nsubsection Linear solvers\nsubsection Viscosity\n"
+      "set Preconditioner = " + preconditioner +
+      "\nset Maximum iterations = 20000\nend\nend\n");
     return result;
   }
 
@@ -43,6 +50,7 @@ namespace
   print(const State<dim>                          &start,
         const FaceFit<dim>                        &fit,
         const typename Viscosity<dim>::Parameters &prm,
+        const std::string                         &choices,
         const double                               ratio)
   {
     const Mesh<dim> &mesh = *start.mesh;
@@ -60,12 +68,10 @@ namespace
     timer.stop();
     const double seconds = timer.wall_time();
     if (Utilities::MPI::this_mpi_process(mesh.communicator()) == 0)
-      std::printf("%dD %9llu cells  %-16s  %-9s  %-6s  dt mu/(rho h^2) = %-6g %5d iterations %8.2f s\n",
+      std::printf("%dD %9llu cells  %-36s  dt mu/(rho h^2) = %-6g %5d iterations %8.2f s\n",
                   dim,
                   static_cast<unsigned long long>(mesh.cells->size()),
-                  prm.mapping.c_str(),
-                  prm.stress_model.c_str(),
-                  prm.solver.preconditioner.c_str(),
+                  choices.c_str(),
                   ratio,
                   iterations,
                   seconds),
@@ -76,7 +82,7 @@ namespace
   void
   run(const std::string &level, const std::string &mapping, const std::string &stress_model)
   {
-    typename Simulator<dim>::Parameters prm = parameters<dim>(level);
+    typename Simulator<dim>::Parameters prm = parameters<dim>(level, mapping, stress_model, "amg");
     const Scene<dim>                    scene(prm.scene);
     prm.mesh.lower_corner = scene.lower_corner();
     prm.mesh.upper_corner = scene.upper_corner();
@@ -90,18 +96,17 @@ namespace
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       state.u.local_element(f) = scene.initial_velocity(mesh.face_centre[f]) * mesh.face_normal[f];
     state.u.update_ghost_values();
-    const LiquidDomain<dim> domain(state, scene, prm.dynamics.projection.minimum_theta);
+    const MeshData<dim>     data(mesh, scene);
+    const LiquidDomain<dim> domain(prm.liquid_domain, state, data);
     const FaceFit<dim>      fit(prm.dynamics.face_fit, domain);
 
-    prm.dynamics.viscosity.mapping                   = mapping;
-    prm.dynamics.viscosity.stress_model              = stress_model;
-    prm.dynamics.viscosity.solver.maximum_iterations = 20000;
     for (const std::string preconditioner : {"amg", "jacobi"})
-      for (const double ratio : {1., 1e2, 1e4})
-        {
-          prm.dynamics.viscosity.solver.preconditioner = preconditioner;
-          print(state, fit, prm.dynamics.viscosity, ratio);
-        }
+      {
+        const auto choices =
+          parameters<dim>(level, mapping, stress_model, preconditioner).dynamics.viscosity;
+        for (const double ratio : {1., 1e2, 1e4})
+          print(state, fit, choices, mapping + ", " + stress_model + ", " + preconditioner, ratio);
+      }
   }
 } // namespace
 

@@ -81,7 +81,8 @@ namespace tests
       : prm(parse<dim>(text + settings(), n_solids))
       , scene(prm.scene)
       , state(make_state(comm))
-      , domain(state, scene, prm.dynamics.projection.minimum_theta)
+      , data(*state.mesh, scene)
+      , domain(prm.liquid_domain, state, data)
       , fit(prm.dynamics.face_fit, domain)
     {}
 
@@ -90,7 +91,8 @@ namespace tests
       : prm(parse<dim>(text + settings(), 0))
       , scene(prm.scene)
       , state(full(mesh))
-      , domain(state, scene, prm.dynamics.projection.minimum_theta)
+      , data(*state.mesh, scene)
+      , domain(prm.liquid_domain, state, data)
       , fit(prm.dynamics.face_fit, domain)
     {}
 
@@ -108,6 +110,7 @@ namespace tests
     typename Simulator<dim>::Parameters prm;
     Scene<dim>                          scene;
     State<dim>                          state;
+    MeshData<dim>                       data;
     LiquidDomain<dim>                   domain;
     FaceFit<dim>                        fit;
 

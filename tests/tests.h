@@ -9,10 +9,31 @@
 #include <chrono>
 #include <fstream>
 #include <functional>
+#include <map>
+#include <string>
 #include <thread>
 
 namespace tests
 {
+  /// A test of the program treacle_tests, under the name of its file: room/name. Arguments
+  /// are for a person who wants more than what is compared.
+  struct Test
+  {
+    using Function = void (*)(const int argc, char **argv);
+
+    Test(const std::string &name, const Function function)
+    {
+      all().emplace(name, function);
+    }
+
+    static std::map<std::string, Function> &
+    all()
+    {
+      static std::map<std::string, Function> tests;
+      return tests;
+    }
+  };
+
   /// The file that the harness compares; only the first rank writes.
   inline std::ostream &
   out()

@@ -12,9 +12,7 @@
 #include <treacle/io/statistics.h>
 #include <treacle/io/surface_writer.h>
 #include <treacle/mesh/imported_mesh.h>
-#include <treacle/surface/surface_tracking.h>
-#include <treacle/transport/advection.h>
-#include <treacle/transport/time_step.h>
+#include <treacle/transport/transport.h>
 
 namespace treacle
 {
@@ -28,18 +26,17 @@ namespace treacle
       unsigned int dimension        = dim;
       std::string  output_directory = "results/treacle";
 
-      typename TimeStep<dim>::Parameters        time_step;
-      typename Scene<dim>::Parameters           scene;
-      StepSwitches                              steps;
-      typename ImportedMesh<dim>::Parameters    imported;
-      typename Octree<dim>::Parameters          mesh;
-      typename SurfaceTracking<dim>::Parameters tracking;
-      typename Advection<dim>::Parameters       advection;
-      typename Dynamics<dim>::Parameters        dynamics;
-      typename MeshWriter<dim>::Parameters      mesh_writer;
-      typename SurfaceWriter<dim>::Parameters   surface_writer;
-      typename Probes<dim>::Parameters          probes;
-      typename Checkpoint<dim>::Parameters      checkpoint;
+      typename Scene<dim>::Parameters         scene;
+      StepSwitches                            steps;
+      typename ImportedMesh<dim>::Parameters  imported;
+      typename Octree<dim>::Parameters        mesh;
+      typename Transport<dim>::Parameters     transport;
+      typename LiquidDomain<dim>::Parameters  liquid_domain;
+      typename Dynamics<dim>::Parameters      dynamics;
+      typename MeshWriter<dim>::Parameters    mesh_writer;
+      typename SurfaceWriter<dim>::Parameters surface_writer;
+      typename Probes<dim>::Parameters        probes;
+      typename Checkpoint<dim>::Parameters    checkpoint;
 
       /// @p prm writes into this object when it parses; do not move it before.
       void
@@ -68,42 +65,20 @@ namespace treacle
     resume();
 
     void
+    open_output(const bool resume);
+
+    void
     write_parameters() const;
-
-    void
-    check_bodies() const;
-
-    /// Of cells, from the surface into the air, that the liquid may cross in a step.
-    unsigned int
-    n_layers() const
-    {
-      return static_cast<unsigned int>(std::ceil(prm.time_step.cfl)) + 3;
-    }
-
-    void
-    check_walls() const;
 
     std::string
     description_of_mesh() const;
 
+    /// One time step (doc/method.md, "A step").
     void
     step(const double dt);
 
     void
-    move_surface(const double dt);
-
-    /// Velocity and material move on, if they do, but neither surface nor mesh.
-    void
-    keep_surface(const double dt);
-
-    /// Nothing moves.
-    void
-    stay(const double dt);
-
-    /// Is the velocity of now of use to the step after this one? Not before an emitter
-    /// starts or stops.
-    bool
-    remembers() const;
+    transport(const BackwardDifference &difference);
 
     void
     output_frame();
@@ -117,9 +92,9 @@ namespace treacle
     const std::string parameters_as_used;
     const Scene<dim>  scene;
 
-    const TimeStep<dim>        time_step;
-    const SurfaceTracking<dim> tracking;
-    const Dynamics<dim>        dynamics;
+    const Transport<dim>      movement;
+    const TimeStep<dim>      &time_step;
+    const Dynamics<dim>       dynamics;
 
     const MeshWriter<dim>            mesh_writer;
     const SurfaceWriter<dim>         surface_writer;
@@ -129,12 +104,11 @@ namespace treacle
     std::unique_ptr<Log>             log;
     std::unique_ptr<Statistics<dim>> statistics;
 
-    std::unique_ptr<State<dim>>        state;
-    std::unique_ptr<LiquidDomain<dim>> domain;
-    unsigned int                       frame  = 0; ///< the last one written
-    double                             volume = 0; ///< that the liquid should have (m^dim)
-    double                             reach  = 0; ///< of velocity and distance from the surface (m)
-    StepInfo<dim>                      info;
+    Liquid<dim>   liquid;
+    unsigned int  frame  = 0; ///< the last one written
+    double        volume = 0; ///< that the liquid should have (m^dim)
+    double        reach  = 0; ///< of velocity and distance from the surface (m)
+    StepInfo<dim> info;
   };
 } // namespace treacle
 

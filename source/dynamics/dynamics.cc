@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/choice.h>
 #include <treacle/base/exceptions.h>
 #include <treacle/dynamics/dynamics.h>
 
@@ -14,15 +15,19 @@ namespace treacle
     face_fit.add_parameters(handler);
     viscosity.add_parameters(handler);
     handler.enter_subsection("Viscosity");
-    handler.add_parameter("Pressure coupling",
-                          coupling,
-                          "Gravity, viscosity and projection in a row, or with a projection before "
-                          "viscosity too, which follows slow flows much better, or viscosity and "
-                          "pressure in one solve, with the mapping hybrid alone.",
-                          Patterns::Selection("split|split with first projection|coupled"));
+    add_choice<Coupling>(
+      handler,
+      "Pressure coupling",
+      coupling,
+      "Gravity, viscosity and projection in a row, or with a projection before "
+      "viscosity too, which follows slow flows much better, or viscosity and "
+      "pressure in one solve, with the mapping hybrid alone.",
+      {{"split", Coupling::split},
+       {"split with first projection", Coupling::split_with_first_projection},
+       {"coupled", Coupling::stokes}});
     handler.leave_subsection();
     projection.add_parameters(handler);
-    coupled.add_parameters(handler);
+    stokes.add_parameters(handler);
   }
 
   template <int dim>
@@ -32,131 +37,137 @@ namespace treacle
     , viscosity(parameters.viscosity)
     , reconstruction(parameters.reconstruction)
   {
-    require(prm.coupling != "coupled" || prm.viscosity.mapping == "hybrid" || !switches.pressure ||
+    require(prm.coupling != Coupling::stokes ||
+              prm.viscosity.mapping == Viscosity<dim>::Mapping::hybrid || !switches.pressure ||
               !switches.viscosity,
-            "Viscosity/Mapping = " + prm.viscosity.mapping +
+            "Viscosity/Mapping = " + Viscosity<dim>::mappings.name(prm.viscosity.mapping) +
               " does not go with Pressure coupling = coupled, which is solved with the mapping hybrid: "
               "set Pressure coupling = split with first projection, or Mapping = hybrid.");
   }
 
   template <int dim>
-  std::unique_ptr<LiquidDomain<dim>>
-  Dynamics<dim>::liquid_domain(const State<dim> &state, const Scene<dim> &scene) const
-  {
-    using Hold = typename LiquidDomain<dim>::Hold;
-    return std::make_unique<LiquidDomain<dim>>(state,
-                                               scene,
-                                               prm.projection.minimum_theta,
-                                               prm.viscosity.solid_walls == "nodes" ? Hold::nodes :
-                                                                                      Hold::walls);
-  }
-
-  template <int dim>
   struct Dynamics<dim>::Stage
   {
-    const Dynamics                        &dynamics;
-    const LiquidDomain<dim>               &domain;
-    Timing                                &timing;
-    std::unique_ptr<const Projection<dim>> projection;
-    std::unique_ptr<const FaceFit<dim>>    fit;
-    Reactions<dim>                         reactions;
-    const bool                             is_viscous; ///< anywhere
-    Info                                   info{};
+    using Pass = typename Projection<dim>::Pass;
 
-    void
-    project(State<dim> &state, const double dt, const typename Projection<dim>::Pass pass)
+    const Dynamics          &dynamics;
+    const LiquidDomain<dim> &domain;
+    Timing                  &timing;
+    const double             step; ///< of the backward difference (s)
+    const bool               is_viscous;
+    /// Null if the pressure is turned off.
+    std::unique_ptr<const PressureSystem<dim>> pressure;
+    std::unique_ptr<const FaceFit<dim>>        fit;
+    Reactions<dim>                             reactions;
+    Info                                       info{};
+
+    Stage(const Dynamics          &dynamics,
+          const LiquidDomain<dim> &domain,
+          const double             time,
+          const double             step,
+          Timing                  &timing)
+      : dynamics(dynamics)
+      , domain(domain)
+      , timing(timing)
+      , step(step)
+      , is_viscous(dynamics.is_viscous(domain))
+      , reactions(domain, time)
     {
-      if (!projection)
-        return;
-      const auto section = timing.section("pressure");
-      info.pressure_iterations += projection->advance(state, dt, pass);
+      if (dynamics.switches.pressure)
+        {
+          const auto section = timing.section("pressure");
+          pressure =
+            std::make_unique<const PressureSystem<dim>>(dynamics.prm.projection.solver, domain);
+        }
+      const auto section = timing.section("face fit");
+      fit                = std::make_unique<const FaceFit<dim>>(dynamics.prm.face_fit, domain);
     }
 
     void
-    split(State<dim> &state, const double dt, const bool with_first)
+    project(State<dim> &state, const Pass pass)
     {
-      using Pass       = typename Projection<dim>::Pass;
+      if (!pressure)
+        return;
+      const auto section = timing.section("pressure");
+      info.pressure_iterations += Projection<dim>(*pressure).advance(state, step, pass);
+    }
+
+    void
+    split(State<dim> &state, const bool with_first)
+    {
       const bool twice = is_viscous && with_first;
       if (twice)
-        project(state, dt, Pass::first);
+        project(state, Pass::first);
       if (is_viscous)
         {
           const auto section = timing.section("viscosity");
-          info.viscosity_iterations += dynamics.viscosity.advance(state, *fit, dt, &reactions);
+          info.viscosity_iterations += dynamics.viscosity.advance(state, *fit, step, &reactions);
         }
-      project(state, dt, twice ? Pass::correction : Pass::first);
+      project(state, twice ? Pass::correction : Pass::first);
     }
 
     /// Returns false where the solve stagnates.
     bool
-    couple(State<dim> &state, const double dt)
+    solve_stokes(State<dim> &state)
     {
-      const auto         section = timing.section("coupled");
-      const Coupled<dim> coupled(dynamics.prm.coupled,
-                                 dynamics.prm.viscosity.solver,
-                                 fit->system,
-                                 dynamics.viscosity.stiffness(domain, dt),
-                                 *projection,
-                                 dt);
-      const auto         iterations = coupled.advance(state, reactions);
+      const auto        section = timing.section("coupled");
+      const Stokes<dim> stokes(dynamics.prm.stokes,
+                               dynamics.prm.viscosity.solver,
+                               fit->system,
+                               dynamics.viscosity.stiffness(domain, step),
+                               *pressure,
+                               step);
+      const auto        iterations = stokes.advance(state, reactions);
       if (iterations)
         info.viscosity_iterations += *iterations;
       return iterations.has_value();
     }
 
     void
-    advance(State<dim> &state, const double dt)
+    advance(State<dim> &state)
     {
-      dynamics.forces.advance(state, domain, dt);
+      const Coupling coupling = dynamics.prm.coupling;
+      dynamics.forces.advance(state, domain, step);
       // without a pressure cell there is nothing to be coupled
-      if (dynamics.prm.coupling != "coupled" || !is_viscous || !projection ||
-          projection->pressure_rows().size() == 0)
-        split(state, dt, dynamics.prm.coupling != "split");
-      else if (couple(state, dt))
-        // what the tolerance of the coupled solve leaves
-        project(state, dt, Projection<dim>::Pass::correction);
+      if (coupling != Coupling::stokes || !is_viscous || !pressure || pressure->rows().size() == 0)
+        split(state, coupling != Coupling::split);
+      else if (solve_stokes(state))
+        project(state, Pass::correction); // what the tolerance leaves
       else
         {
           ++info.fallbacks;
-          split(state, dt, true);
+          split(state, true);
         }
-      if (projection)
-        reactions.add_pressure(state.pressure, dt);
+      if (pressure)
+        reactions.add_pressure(state.pressure, step);
+      info.loads              = reactions.loads(step);
+      info.maximum_divergence = PressureSystem<dim>::maximum_divergence(state, domain);
     }
   };
 
   template <int dim>
-  typename Dynamics<dim>::Info
-  Dynamics<dim>::advance(State<dim>              &state,
-                         const LiquidDomain<dim> &domain,
-                         const double             dt,
-                         const double             reach,
-                         Timing                  &timing) const
+  bool
+  Dynamics<dim>::is_viscous(const LiquidDomain<dim> &domain) const
   {
-    const bool has_viscosity =
-      std::any_of(domain.viscosity.begin(), domain.viscosity.end(), [](const double mu) { return mu > 0; });
-    Stage stage{*this,
-                domain,
-                timing,
-                nullptr,
-                nullptr,
-                Reactions<dim>(domain, state.time),
-                switches.viscosity &&
-                  Utilities::MPI::max(has_viscosity ? 1 : 0, domain.mesh.communicator()) > 0};
-    if (switches.pressure)
-      {
-        const auto section = timing.section("pressure");
-        stage.projection   = std::make_unique<const Projection<dim>>(prm.projection, domain);
-      }
-    {
-      const auto section = timing.section("face fit");
-      stage.fit          = std::make_unique<const FaceFit<dim>>(prm.face_fit, domain);
-    }
-    stage.advance(state, dt);
-    stage.info.loads              = stage.reactions.loads(dt);
-    stage.info.maximum_divergence = Projection<dim>::maximum_divergence(state, domain);
-    const auto section            = timing.section("reconstruction");
-    reconstruction.advance(state, *stage.fit, reach);
+    const bool here = std::any_of(domain.viscosity.begin(),
+                                  domain.viscosity.end(),
+                                  [](const double mu) { return mu > 0; });
+    return switches.viscosity &&
+           Utilities::MPI::max(here ? 1 : 0, domain.mesh.communicator()) > 0;
+  }
+
+  template <int dim>
+  typename Dynamics<dim>::Info
+  Dynamics<dim>::advance(Liquid<dim>              &liquid,
+                         const BackwardDifference &difference,
+                         const double              reach,
+                         Timing                   &timing) const
+  {
+    State<dim> &state = *liquid.state;
+    Stage       stage(*this, *liquid.domain, state.time, difference.step, timing);
+    stage.advance(state);
+    const auto section = timing.section("reconstruction");
+    reconstruction.advance(state, *stage.fit, *liquid.surface, reach);
     return stage.info;
   }
 

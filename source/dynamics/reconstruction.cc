@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/choice.h>
 #include <treacle/dynamics/reconstruction.h>
+#include <treacle/fields/face_node.h>
 #include <treacle/surface/extrapolation.h>
 #include <treacle/viscosity/least_squares.h>
 
@@ -12,12 +14,15 @@ namespace treacle
   Reconstruction<dim>::Parameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Advection");
-    prm.add_parameter("Reconstruction",
-                      method,
-                      "Node velocity from face velocity: the fit that is exact for rigid motions, "
-                      "least squares at each node, or least squares in each cell and means "
-                      "of these at the nodes.",
-                      Patterns::Selection("face fitted|least squares|two step"));
+    add_choice<Method>(prm,
+                       "Reconstruction",
+                       method,
+                       "Node velocity from face velocity: the fit that is exact for rigid motions, "
+                       "least squares at each node, or least squares in each cell and means "
+                       "of these at the nodes.",
+                       {{"face fitted", Method::face_fitted},
+                        {"least squares", Method::least_squares},
+                        {"two step", Method::two_step}});
     prm.leave_subsection();
   }
 
@@ -47,15 +52,23 @@ namespace treacle
 
   template <int dim>
   void
-  Reconstruction<dim>::advance(State<dim> &state, const FaceFit<dim> &fit, const double reach) const
+  Reconstruction<dim>::advance(State<dim>                 &state,
+                               const FaceFit<dim>         &fit,
+                               const SurfaceGeometry<dim> &surface,
+                               const double                reach) const
   {
-    if (prm.method == "face fitted")
-      fit_smoothly(fit, state.u, state.v);
-    else if (prm.method == "two step")
-      two_step(fit.domain, state.u, state.v);
-    else
-      LeastSquares<dim>(fit.domain).apply(state.u, state.v);
-    extrapolate(state, fit.domain, reach);
+    switch (prm.method)
+      {
+        case Method::face_fitted:
+          fit_smoothly(fit, state.u, state.v);
+          break;
+        case Method::two_step:
+          two_step(fit.domain, state.u, state.v);
+          break;
+        case Method::least_squares:
+          LeastSquares<dim>(fit.domain).apply(state.u, state.v);
+      }
+    extrapolate(state, fit.domain, surface, reach);
   }
 
   template class Reconstruction<2>;

@@ -11,13 +11,13 @@ namespace treacle
 {
   namespace
   {
-    /// Of mu dt over rho h^2: less than this is none.
+    /// Of mu step over rho h^2: less than this is none.
     constexpr double least_viscosity = 1e-12;
   } // namespace
 
   template <int dim>
   void
-  Coupled<dim>::Parameters::add_parameters(ParameterHandler &prm)
+  Stokes<dim>::Parameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Linear solvers");
     prm.enter_subsection("Coupled");
@@ -28,26 +28,26 @@ namespace treacle
                       Patterns::Double(1e-15, 0.1));
     prm.add_parameter("Maximum iterations",
                       maximum_iterations,
-                      "A step that needs more is taken by split with first projection.",
+                      "A step that needs more is taken by split with first pressure.",
                       Patterns::Integer(1));
     prm.leave_subsection();
     prm.leave_subsection();
   }
 
   template <int dim>
-  Coupled<dim>::Coupled(const Parameters                          &parameters,
+  Stokes<dim>::Stokes(const Parameters                          &parameters,
                         const LinearSolver::Parameters            &viscosity_solver,
                         const NodeSystem<dim>                     &system,
                         const typename NodeSystem<dim>::Stiffness &stiffness,
-                        const Projection<dim>                     &projection,
-                        const double                               dt)
+                        const PressureSystem<dim>                 &pressure,
+                        const double                               step)
     : prm(parameters)
     , system(system)
     , domain(system.domain)
-    , projection(projection)
-    , dt(dt)
+    , pressure(pressure)
+    , step(step)
     , stiffness(stiffness)
-    , hybrid(system, stiffness, dt, Hybrid<dim>::Faces::coupled)
+    , hybrid(system, stiffness, step, Hybrid<dim>::Faces::under_pressure)
     , nodes_solver(viscosity_solver,
                    "Viscosity",
                    *hybrid.stiff.matrix,
@@ -58,16 +58,16 @@ namespace treacle
     , q(domain.mesh.zeros(domain.mesh.cells))
     , flux(domain.mesh.zeros(domain.mesh.faces))
     , force(domain.mesh.zeros(domain.mesh.faces))
-    , z_viscous(projection.pressure_rows(), domain.mesh.communicator())
+    , z_viscous(pressure.rows(), domain.mesh.communicator())
   {}
 
   template <int dim>
   std::unique_ptr<const TrilinosWrappers::SparseMatrix>
-  Coupled<dim>::viscous_schur_complement() const
+  Stokes<dim>::viscous_schur_complement() const
   {
     const Mesh<dim>    &mesh = domain.mesh;
     std::vector<double> mass;
-    for (const LocalIndex c : projection.cells())
+    for (const LocalIndex c : pressure.cells())
       {
         double open = 0, all = 0; // squares of areas
         for (const LocalIndex f : mesh.cell_faces[c])
@@ -78,17 +78,17 @@ namespace treacle
         // little goes out of a cell that solids or emitters all but close
         const double volume = std::min(domain.open_volume(c), open / all * mesh.cell_volume[c]);
         const double mu_dt =
-          std::max(domain.viscosity[c] * dt,
+          std::max(domain.viscosity[c] * step,
                    least_viscosity * domain.density[c] * std::pow(mesh.cell_size[c], 2));
         mass.push_back(volume / (2 * mu_dt));
       }
-    return projection.assemble(
+    return pressure.assemble(
       [this](const LocalIndex f) { return (1 - hybrid.share[f]) / domain.face_mass[f]; }, mass);
   }
 
   template <int dim>
   void
-  Coupled<dim>::scatter(const Pair &x) const
+  Stokes<dim>::scatter(const Pair &x) const
   {
     const auto &nodes = system.nodes();
     for (unsigned int i = 0; i < nodes.size(); ++i)
@@ -96,12 +96,12 @@ namespace treacle
         v.component[d].local_element(nodes[i]) =
           domain.constrained[nodes[i]] >> d & 1 ? 0. : x.block(0).local_element(dim * i + d);
     v.update_ghost_values();
-    projection.to_cells(x.block(1), q);
+    pressure.to_cells(x.block(1), q);
   }
 
   template <int dim>
   void
-  Coupled<dim>::vmult(Pair &y, const Pair &x) const
+  Stokes<dim>::vmult(Pair &y, const Pair &x) const
   {
     const Mesh<dim> &mesh = domain.mesh;
     hybrid.stiff.matrix->vmult(y.block(0), x.block(0));
@@ -109,10 +109,10 @@ namespace treacle
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       {
         double push = 0, u = 0; // B^T q, s P v + (1 - s) M^-1 B^T q
-        if (domain.is_liquid_face(f) && projection.is_unknown(f))
+        if (domain.is_liquid_face(f) && pressure.is_unknown(f))
           {
             const double s = hybrid.share[f];
-            push           = projection.force(f, q);
+            push           = pressure.force(f, q);
             u = s * face_velocity(mesh, v, f) + (1 - s) / domain.face_mass[f] * push;
           }
         force.local_element(f) = push;
@@ -126,29 +126,29 @@ namespace treacle
       for (unsigned int d = 0; d < dim; ++d)
         if ((domain.constrained[nodes[i]] >> d & 1) == 0)
           y.block(0).local_element(dim * i + d) -= pushed[nodes[i]][d];
-    const auto &cells = projection.cells();
+    const auto &cells = pressure.cells();
     for (unsigned int i = 0; i < cells.size(); ++i)
-      y.block(1).local_element(i) = -projection.linear_outflow(cells[i], flux);
+      y.block(1).local_element(i) = -pressure.linear_outflow(cells[i], flux);
   }
 
   template <int dim>
   void
-  Coupled<dim>::precondition(Pair &z, const Pair &r) const
+  Stokes<dim>::precondition(Pair &z, const Pair &r) const
   {
     nodes_solver.precondition(z.block(0), r.block(0));
-    projection.precondition(z.block(1), r.block(1));
+    pressure.precondition(z.block(1), r.block(1));
     viscous_schur_solver.precondition(z_viscous, r.block(1));
     z.block(1) += z_viscous;
   }
 
   template <int dim>
-  typename Coupled<dim>::Pair
-  Coupled<dim>::right_hand_side(const State<dim> &state) const
+  typename Stokes<dim>::Pair
+  Stokes<dim>::right_hand_side(const State<dim> &state) const
   {
     const Mesh<dim> &mesh = domain.mesh;
     Pair             b(2);
     b.block(0) = hybrid.right_hand_side(state.u, state.v);
-    b.block(1).reinit(projection.pressure_rows(), mesh.communicator());
+    b.block(1).reinit(pressure.rows(), mesh.communicator());
     b.collect_sizes();
 
     // (1 - s) u* + s P v of the prescribed components alone
@@ -164,70 +164,87 @@ namespace treacle
                                   hybrid.share[f] * face_velocity(mesh, v, f) :
                                 state.u.local_element(f);
     flux.update_ghost_values();
-    const auto &cells = projection.cells();
+    const auto &cells = pressure.cells();
     for (unsigned int i = 0; i < cells.size(); ++i)
-      b.block(1).local_element(i) = projection.outflow(domain, cells[i], flux);
-    projection.balance(b.block(1));
+      b.block(1).local_element(i) = pressure.outflow(domain, cells[i], flux);
+    pressure.pockets.balance(b.block(1));
     return b;
   }
 
   template <int dim>
   void
-  Coupled<dim>::set_faces(State<dim> &state, const Pair &x, Reactions<dim> &reactions) const
+  Stokes<dim>::set_faces(State<dim> &state, const Pair &x, Reactions<dim> &reactions) const
   {
     const Mesh<dim> &mesh = domain.mesh;
-    projection.to_cells(x.block(1), q);
-    const Vector q_beyond = projection.extended(q);
+    pressure.to_cells(x.block(1), q);
     system.to_nodes(x.block(0), state.v);
-    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
-      if (domain.is_liquid_face(f))
-        state.u.local_element(f) += projection.impulse(f, q, q_beyond);
-    state.u.update_ghost_values();
+    pressure.push(q, state.u);
     // on what is prescribed pressure acts by itself
     hybrid.drag_faces(state, stiffness, &reactions);
     for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
-      state.pressure.local_element(c) = q.local_element(c) / dt;
+      state.pressure.local_element(c) = q.local_element(c) / step;
     state.pressure.update_ghost_values();
   }
 
   template <int dim>
-  std::optional<unsigned int>
-  Coupled<dim>::advance(State<dim> &state, Reactions<dim> &reactions) const
+  typename Stokes<dim>::Pair
+  Stokes<dim>::first_guess(const State<dim> &state, const Pair &b) const
   {
-    projection.set_walls(state.u);
-    const Pair b = right_hand_side(state);
-    Pair       x(b), z(b);
+    Pair x(b);
+    x.block(0)        = system.unknowns(state.v);
+    const auto &cells = pressure.cells();
+    for (unsigned int i = 0; i < cells.size(); ++i)
+      x.block(1).local_element(i) = state.pressure.local_element(cells[i]) * step;
+    return x;
+  }
+
+  template <int dim>
+  std::optional<unsigned int>
+  Stokes<dim>::solve(Pair &x, const Pair &b) const
+  {
+    Pair z(b);
     precondition(z, b);
     require_finite(b.l2_norm(), "Coupled");
     const double squared_norm = b * z;
     if (b.l2_norm() > 0 && !(squared_norm > 0)) // the preconditioner is of no use
       return {};
-    const double norm = std::sqrt(squared_norm);
-    x.block(0)        = system.unknowns(state.v);
-    const auto &cells = projection.cells();
-    for (unsigned int i = 0; i < cells.size(); ++i)
-      x.block(1).local_element(i) = state.pressure.local_element(cells[i]) * dt;
-    SolverControl      control(prm.maximum_iterations, prm.relative_tolerance * norm);
+    if (squared_norm == 0)
+      {
+        x = 0;
+        return 0;
+      }
+    SolverControl      control(prm.maximum_iterations,
+                          prm.relative_tolerance * std::sqrt(squared_norm));
     SolverMinRes<Pair> solver(control);
     try
       {
-        if (norm == 0)
-          x = 0;
-        else
-          solver.solve(Multiplies<Pair>{[&](Pair &y, const Pair &p) { vmult(y, p); }},
-                       x,
-                       b,
-                       Multiplies<Pair>{[&](Pair &y, const Pair &r) { precondition(y, r); }});
+        solver.solve(Multiplies<Pair>{[&](Pair &y, const Pair &p) { vmult(y, p); }},
+                     x,
+                     b,
+                     Multiplies<Pair>{[&](Pair &y, const Pair &r) { precondition(y, r); }});
       }
     catch (const SolverControl::NoConvergence &)
       {
         return {};
       }
-    projection.take_off_mean(x.block(1));
-    set_faces(state, x, reactions);
-    return norm == 0 ? 0 : control.last_step();
+    return control.last_step();
   }
 
-  template class Coupled<2>;
-  template class Coupled<3>;
+  template <int dim>
+  std::optional<unsigned int>
+  Stokes<dim>::advance(State<dim> &state, Reactions<dim> &reactions) const
+  {
+    pressure.set_walls(state.u);
+    const Pair b          = right_hand_side(state);
+    Pair       x          = first_guess(state, b);
+    const auto iterations = solve(x, b);
+    if (!iterations)
+      return {};
+    pressure.pockets.take_off_mean(x.block(1));
+    set_faces(state, x, reactions);
+    return iterations;
+  }
+
+  template class Stokes<2>;
+  template class Stokes<3>;
 } // namespace treacle

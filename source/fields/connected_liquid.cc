@@ -5,59 +5,101 @@
 
 namespace treacle
 {
-  template <int dim>
-  Vector
-  label_pieces(const LiquidDomain<dim> &domain, const Numbering &cells)
+  namespace
   {
-    // spread the smallest number through each connected set
-    const Mesh<dim> &mesh  = domain.mesh;
-    Vector           label = mesh.zeros(mesh.cells);
-    for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
-      label.local_element(c) = cells.number[c] == numbers::invalid_dof_index ?
-                                 -1. :
-                                 static_cast<double>(cells.number[c]);
-    // the smallest label on top, or each smaller one would flood the rest again
-    std::vector<LocalIndex> stack(cells.owned.rbegin(), cells.owned.rend());
-    for (bool changed = true; changed;)
+    /// Spreads the smallest number through each connected set.
+    template <int dim>
+    class Flood
+    {
+    public:
+      Flood(const LiquidDomain<dim> &domain, const Numbering &cells)
+        : label(domain.mesh.zeros(domain.mesh.cells))
+        , domain(domain)
+        , mesh(domain.mesh)
+        , cells(cells)
+        // the smallest label on top, or each smaller one would flood the rest again
+        , stack(cells.owned.rbegin(), cells.owned.rend())
+      {
+        for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+          label.local_element(c) = cells.number[c] == numbers::invalid_dof_index ?
+                                     -1. :
+                                     static_cast<double>(cells.number[c]);
+      }
+
+      void
+      run()
+      {
+        do
+          {
+            spread();
+            label.update_ghost_values();
+            hear_from_ghosts();
+            label.zero_out_ghost_values();
+          }
+        while (Utilities::MPI::max(stack.empty() ? 0 : 1, mesh.communicator()) > 0);
+        label.update_ghost_values();
+      }
+
+      Vector label;
+
+    private:
+      /// Call @p visit with the numbered cells across liquid faces.
+      template <typename Visit>
+      void
+      for_each_neighbour(const LocalIndex c, const Visit &visit) const
+      {
+        for (const LocalIndex f : mesh.cell_faces[c])
+          for (const LocalIndex other : mesh.face_cells[f])
+            if (other != invalid && other != c && domain.is_liquid_face(f) &&
+                label.local_element(other) >= 0)
+              visit(other);
+      }
+
+      /// Among the cells of this rank.
+      void
+      spread()
       {
         while (!stack.empty())
           {
             const LocalIndex c = stack.back();
             stack.pop_back();
-            for (const LocalIndex f : mesh.cell_faces[c])
-              for (const LocalIndex other : mesh.face_cells[f])
-                if (other != invalid && other != c && domain.is_liquid_face(f) &&
-                    other < mesh.n_owned_cells() && label.local_element(other) >= 0)
-                  {
-                    double &mine = label.local_element(c), &theirs = label.local_element(other);
-                    if (theirs > mine)
-                      {
-                        theirs = mine;
-                        stack.push_back(other);
-                      }
-                    else if (mine > theirs)
-                      {
-                        mine = theirs;
-                        stack.push_back(c);
-                      }
-                  }
+            for_each_neighbour(c, [&](const LocalIndex other) {
+              double &mine = label.local_element(c), &theirs = label.local_element(other);
+              if (other >= mesh.n_owned_cells() || theirs == mine)
+                return;
+              stack.push_back(theirs > mine ? other : c);
+              theirs = mine = std::min(mine, theirs);
+            });
           }
-        label.update_ghost_values();
-        for (const LocalIndex c : cells.owned)
-          for (const LocalIndex f : mesh.cell_faces[c])
-            for (const LocalIndex other : mesh.face_cells[f])
-              if (other != invalid && other >= mesh.n_owned_cells() && domain.is_liquid_face(f) &&
-                  label.local_element(other) >= 0 &&
-                  label.local_element(other) < label.local_element(c))
-                {
-                  label.local_element(c) = label.local_element(other);
-                  stack.push_back(c);
-                }
-        label.zero_out_ghost_values();
-        changed = Utilities::MPI::max(stack.empty() ? 0 : 1, mesh.communicator()) > 0;
       }
-    label.update_ghost_values();
-    return label;
+
+      void
+      hear_from_ghosts()
+      {
+        for (const LocalIndex c : cells.owned)
+          for_each_neighbour(c, [&](const LocalIndex other) {
+            if (other < mesh.n_owned_cells() ||
+                label.local_element(other) >= label.local_element(c))
+              return;
+            label.local_element(c) = label.local_element(other);
+            stack.push_back(c);
+          });
+      }
+
+      const LiquidDomain<dim> &domain;
+      const Mesh<dim>         &mesh;
+      const Numbering         &cells;
+      std::vector<LocalIndex>  stack;
+    };
+  } // namespace
+
+  template <int dim>
+  Vector
+  label_connected(const LiquidDomain<dim> &domain, const Numbering &cells)
+  {
+    Flood<dim> flood(domain, cells);
+    flood.run();
+    return std::move(flood.label);
   }
 
   std::set<GlobalIndex>
@@ -71,7 +113,7 @@ namespace treacle
   }
 
   template Vector
-  label_pieces(const LiquidDomain<2> &, const Numbering &);
+  label_connected(const LiquidDomain<2> &, const Numbering &);
   template Vector
-  label_pieces(const LiquidDomain<3> &, const Numbering &);
+  label_connected(const LiquidDomain<3> &, const Numbering &);
 } // namespace treacle

@@ -31,6 +31,38 @@ namespace treacle
   } // namespace
 
   template <int dim>
+  void
+  CutCells<dim>::append_parts(const Simplex<dim>      &x,
+                              const VertexValues<dim> &psi,
+                              const double             least_volume,
+                              const Scene<dim>        &scene,
+                              const double             time)
+  {
+    const Parts<dim> parts = negative_parts<dim>(psi, by_position<dim>(x));
+    for (unsigned int k = 0; k < parts.n; ++k)
+      {
+        Part         part;
+        Simplex<dim> corners;
+        for (unsigned int v = 0; v <= dim; ++v)
+          {
+            const auto [i, j] = parts.corners[k][v];
+            corners[v]        = x[i];
+            part.vertex[v]    = i;
+            if (i == j)
+              continue;
+            corners[v] += std::max(psi[i] / (psi[i] - psi[j]), least_open) * (x[j] - x[i]);
+            part.vertex[v]   = on_wall;
+            part.velocity[v] = scene.solid_velocity(corners[v], time);
+          }
+        part.fraction = std::abs(signed_volume<dim>(corners));
+        if (part.fraction < least_volume) // flat where the wall meets a node
+          continue;
+        part.gradient = basis_gradients<dim>(corners);
+        all.push_back(part);
+      }
+  }
+
+  template <int dim>
   CutCells<dim>::CutCells(const Mesh<dim>           &mesh,
                           const Scene<dim>          &scene,
                           const std::vector<double> &solid_distance,
@@ -47,33 +79,10 @@ namespace treacle
         const auto [least, largest] = std::minmax_element(psi.begin(), psi.end());
         if (*least >= 0 || *largest <= 0)
           continue;
-
-        const Simplex<dim> x     = mesh.cell_vertices(c);
-        const Parts<dim>   parts = negative_parts<dim>(psi, by_position<dim>(x));
-        for (unsigned int k = 0; k < parts.n; ++k)
-          {
-            Part         part;
-            Simplex<dim> corners;
-            for (unsigned int v = 0; v <= dim; ++v)
-              {
-                const auto [i, j] = parts.corners[k][v];
-                corners[v]        = x[i];
-                part.vertex[v]    = i;
-                if (i == j)
-                  continue;
-                corners[v] += std::max(psi[i] / (psi[i] - psi[j]), least_open) * (x[j] - x[i]);
-                part.vertex[v]   = on_wall;
-                part.velocity[v] = scene.solid_velocity(corners[v], time);
-              }
-            part.fraction = std::abs(signed_volume<dim>(corners));
-            // flat where the wall meets a node
-            if (part.fraction < least_part * mesh.cell_volume[c])
-              continue;
-            part.gradient = basis_gradients<dim>(corners);
-            volume[c] += part.fraction;
-            all.push_back(part);
-          }
+        append_parts(mesh.cell_vertices(c), psi, least_part * mesh.cell_volume[c], scene, time);
         Assert(all.size() > start.back(), ExcMessage("A cut cell without an open part."));
+        for (unsigned int k = start.back(); k < all.size(); ++k)
+          volume[c] += all[k].fraction;
         for (unsigned int k = start.back(); k < all.size(); ++k)
           all[k].fraction /= volume[c];
       }

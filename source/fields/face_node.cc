@@ -16,28 +16,6 @@ namespace treacle
   }
 
   template <int dim>
-  bool
-  mean_of_neighbours(const Mesh<dim>       &mesh,
-                     const NodeVector<dim> &v,
-                     const Vector          &counts,
-                     const LocalIndex       node,
-                     Tensor<1, dim>        &mean)
-  {
-    unsigned int n = 0;
-    mean           = 0;
-    for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
-      for (const LocalIndex other : mesh.cell_nodes[mesh.node_cells[k]])
-        if (counts.local_element(other) > 0)
-          {
-            mean += v.value(other);
-            ++n;
-          }
-    if (n > 0)
-      mean /= n;
-    return n > 0;
-  }
-
-  template <int dim>
   void
   set_prescribed(const LiquidDomain<dim> &domain, NodeVector<dim> &v)
   {
@@ -95,11 +73,6 @@ namespace treacle
 
 #define INSTANTIATE(dim)                                                                        \
   template double face_velocity(const Mesh<dim> &, const NodeVector<dim> &, const LocalIndex); \
-  template bool mean_of_neighbours(const Mesh<dim> &,                                           \
-                                   const NodeVector<dim> &,                                     \
-                                   const Vector &,                                              \
-                                   const LocalIndex,                                            \
-                                   Tensor<1, dim> &);                                           \
   template void set_prescribed(const LiquidDomain<dim> &, NodeVector<dim> &);                   \
   template void two_step(const LiquidDomain<dim> &, const Vector &, NodeVector<dim> &);
   INSTANTIATE(2)

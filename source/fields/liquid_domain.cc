@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/choice.h>
 #include <treacle/base/exchange.h>
 #include <treacle/fields/liquid_domain.h>
 
@@ -10,21 +11,6 @@ namespace treacle
 {
   namespace
   {
-    template <int dim>
-    std::vector<double>
-    solid_distances(const Mesh<dim> &mesh, const Scene<dim> &scene, const double time)
-    {
-      std::vector<double> psi;
-      psi.reserve(mesh.node_position.size());
-      for (const Point<dim> &x : mesh.node_position)
-        psi.push_back(scene.solid_distance(x, time));
-      // a wall along nodes is one, whatever rounding says
-      for (double &distance : psi)
-        if (std::abs(distance) < 1e-10 * mesh.finest_size())
-          distance = 0;
-      return psi;
-    }
-
     template <int dim>
     VertexValues<dim>
     cell_values(const Mesh<dim> &mesh, const LocalIndex cell, const std::vector<double> &values)
@@ -38,13 +24,11 @@ namespace treacle
 
   template <int dim>
   double
-  liquid_volume(const Mesh<dim>  &mesh,
-                const Vector     &phi,
-                const Scene<dim> &scene,
-                const double      time)
+  liquid_volume(const MeshData<dim> &data, const Vector &phi, const double time)
   {
-    const std::vector<double> psi    = solid_distances(mesh, scene, time);
-    double                    volume = 0;
+    const Mesh<dim>           &mesh   = data.mesh;
+    const std::vector<double> &psi    = data.solid_distance(time);
+    double                     volume = 0;
     for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
       volume += liquid_moments<dim>(mesh.cell_vertices(c),
                                     mesh.values(c, phi),
@@ -54,17 +38,37 @@ namespace treacle
   }
 
   template <int dim>
-  LiquidDomain<dim>::LiquidDomain(const State<dim> &state,
-                                  const Scene<dim> &scene,
-                                  const double      minimum_theta,
-                                  const Hold        hold)
-    : mesh(*state.mesh)
-    , scene(scene)
-    , minimum_theta(minimum_theta)
+  void
+  LiquidDomain<dim>::Parameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Viscosity");
+    add_choice<Hold>(prm,
+                     "Solid walls",
+                     hold,
+                     "Where solids hold the liquid: at their walls, which cut cells, or at the nodes "
+                     "inside them, to first order.",
+                     {{"cut cells", Hold::walls}, {"nodes", Hold::nodes}});
+    prm.leave_subsection();
+    prm.enter_subsection("Pressure");
+    prm.add_parameter("Minimum theta",
+                      minimum_theta,
+                      "Smallest liquid part of the dual edge of a face that the surface cuts.",
+                      Patterns::Double(1e-6, 1));
+    prm.leave_subsection();
+  }
+
+  template <int dim>
+  LiquidDomain<dim>::LiquidDomain(const Parameters    &parameters,
+                                  const State<dim>    &state,
+                                  const MeshData<dim> &data)
+    : data(data)
+    , mesh(data.mesh)
+    , scene(data.scene)
+    , minimum_theta(parameters.minimum_theta)
   {
     scene.check_solids(state.time);
-    solid_distance = solid_distances(mesh, scene, state.time);
-    if (hold == Hold::walls && scene.has_solids())
+    solid_distance = data.solid_distance(state.time);
+    if (parameters.hold == Hold::walls && scene.has_solids())
       cut_cells = CutCells<dim>(mesh, scene, solid_distance, state.time);
     find_emitters(state.time);
     measure_cells(state);
@@ -90,6 +94,54 @@ namespace treacle
 
   template <int dim>
   void
+  LiquidDomain<dim>::measure_cell(const LocalIndex c, const State<dim> &state)
+  {
+    const VertexValues<dim> phi     = mesh.values(c, state.phi);
+    const Simplex<dim>      x       = mesh.cell_vertices(c);
+    const Moments<dim>      moments =
+      liquid_moments<dim>(x, phi, cell_values(mesh, c, solid_distance));
+    const VertexValues<dim> held    = cell_values(mesh, c, held_distance);
+    const bool              is_open = *std::max_element(held.begin(), held.end()) > 0;
+    dual_distance[c]                = phi[0];
+    for (unsigned int i = 0; i <= dim; ++i)
+      dual_distance[c] += phi[i] * (mesh.cell_gradients[c][i] * (mesh.cell_dual[c] - x[0]));
+    liquid_volume[c]    = moments.volume;
+    is_pressure_cell[c] = is_open && dual_distance[c] < 0;
+    is_active_cell[c]   = is_pressure_cell[c] || moments.volume > 0;
+    if (is_active_cell[c])
+      liquid_centre[c] = moments.volume > 0 ? Point<dim>(moments.first / moments.volume) :
+                                              mesh.cell_dual[c];
+  }
+
+  template <int dim>
+  void
+  LiquidDomain<dim>::find_material(const LocalIndex c, const State<dim> &state)
+  {
+    if (!state.material)
+      {
+        viscosity[c] = scene.viscosity(liquid_centre[c], state.time);
+        density[c]   = scene.density(liquid_centre[c], state.time);
+        return;
+      }
+    // P1: the value at the centroid is the mean over the liquid part
+    const Point<dim> &origin = mesh.node_position[mesh.cell_nodes[c][0]];
+    VertexValues<dim> lambda;
+    for (unsigned int i = 0; i <= dim; ++i)
+      lambda[i] = (i == 0) + mesh.cell_gradients[c][i] * (liquid_centre[c] - origin);
+    const auto mean = [&](const Vector &field) {
+      const VertexValues<dim> values = mesh.values(c, field);
+      const double            value =
+        std::inner_product(lambda.begin(), lambda.end(), values.begin(), 0.);
+      // the dual centre, which stands in for it, may lie outside of its cell
+      const auto [lower, upper] = std::minmax_element(values.begin(), values.end());
+      return std::min(std::max(value, *lower), *upper);
+    };
+    viscosity[c] = mean(state.material->viscosity);
+    density[c]   = mean(state.material->density);
+  }
+
+  template <int dim>
+  void
   LiquidDomain<dim>::measure_cells(const State<dim> &state)
   {
     const unsigned int n = mesh.cell_nodes.size();
@@ -104,44 +156,9 @@ namespace treacle
     std::string error;
     for (LocalIndex c = 0; c < n; ++c)
       {
-        const VertexValues<dim> phi = mesh.values(c, state.phi);
-        const VertexValues<dim> psi = cell_values(mesh, c, solid_distance);
-        const Simplex<dim>  x       = mesh.cell_vertices(c);
-        const Moments<dim>  moments = liquid_moments<dim>(x, phi, psi);
-        const VertexValues<dim> held = cell_values(mesh, c, held_distance);
-        const bool is_open = *std::max_element(held.begin(), held.end()) > 0;
-        dual_distance[c]            = phi[0];
-        for (unsigned int i = 0; i <= dim; ++i)
-          dual_distance[c] += phi[i] * (mesh.cell_gradients[c][i] * (mesh.cell_dual[c] - x[0]));
-        liquid_volume[c]    = moments.volume;
-        is_pressure_cell[c] = is_open && dual_distance[c] < 0;
-        is_active_cell[c]   = is_pressure_cell[c] || moments.volume > 0;
-        if (!is_active_cell[c])
-          continue;
-        liquid_centre[c] = moments.volume > 0 ? Point<dim>(moments.first / moments.volume) :
-                                                mesh.cell_dual[c];
-        if (state.material)
-          {
-            // P1: the value at the centroid is the mean over the liquid part
-            VertexValues<dim> lambda;
-            for (unsigned int i = 0; i <= dim; ++i)
-              lambda[i] = (i == 0) + mesh.cell_gradients[c][i] * (liquid_centre[c] - x[0]);
-            const auto mean = [&](const Vector &field) {
-              const VertexValues<dim> values = mesh.values(c, field);
-              const double            value =
-                std::inner_product(lambda.begin(), lambda.end(), values.begin(), 0.);
-              // the dual centre, which stands in for it, may lie outside of its cell
-              const auto [lower, upper] = std::minmax_element(values.begin(), values.end());
-              return std::min(std::max(value, *lower), *upper);
-            };
-            viscosity[c] = mean(state.material->viscosity);
-            density[c]   = mean(state.material->density);
-          }
-        else
-          keep_error(error, [&] {
-            viscosity[c] = scene.viscosity(liquid_centre[c], state.time);
-            density[c]   = scene.density(liquid_centre[c], state.time);
-          });
+        measure_cell(c, state);
+        if (is_active_cell[c])
+          keep_error(error, [&] { find_material(c, state); });
       }
     throw_first(mesh.communicator(), error);
   }
@@ -164,23 +181,47 @@ namespace treacle
       open_fraction[f] = 0;
     if (open_fraction[f] == 1 && mesh.face_side[f] == Mesh<dim>::no_side)
       return;
+    measure_held_part(f, x, held, time);
+  }
+
+  template <int dim>
+  void
+  LiquidDomain<dim>::measure_held_part(const LocalIndex                   f,
+                                       const std::array<Point<dim>, dim> &x,
+                                       const VertexValues<dim - 1>       &held,
+                                       const double                       time)
+  {
     // at the centroid the flux of a rigid motion is exact, and what the held parts of
     // a cell's faces carry balances but for the area between them
     const Point<dim> centre = negative_centroid<dim>(x, held);
     const bool       in_emitter =
       scene.emitter_distance(centre, time) < scene.solid_distance(centre, time);
     if (mesh.face_side[f] == Mesh<dim>::no_side)
-      solid_velocity[f] = (in_emitter ? scene.emitter_velocity(centre, time) :
-                                        scene.solid_velocity(centre, time)) *
-                          mesh.face_normal[f];
-    else
       {
-        // a wall at rest, but where an emitter pours through it
-        if (in_emitter)
-          solid_velocity[f] = negative_fraction<dim - 1>(held) *
-                              (scene.emitter_velocity(centre, time) * mesh.face_normal[f]);
-        open_fraction[f] = 0;
+        solid_velocity[f] = (in_emitter ? scene.emitter_velocity(centre, time) :
+                                          scene.solid_velocity(centre, time)) *
+                            mesh.face_normal[f];
+        return;
       }
+    // a wall at rest, but where an emitter pours through it
+    if (in_emitter)
+      solid_velocity[f] = negative_fraction<dim - 1>(held) *
+                          (scene.emitter_velocity(centre, time) * mesh.face_normal[f]);
+    open_fraction[f] = 0;
+  }
+
+  template <int dim>
+  double
+  LiquidDomain<dim>::liquid_part_of_dual_edge(const LocalIndex face) const
+  {
+    const LocalIndex i = mesh.face_cells[face][0], j = mesh.face_cells[face][1];
+    if (is_pressure_cell[i] && is_pressure_cell[j])
+      return 1;
+    if (!is_pressure_cell[i] && !is_pressure_cell[j])
+      return minimum_theta;
+    const double a = dual_distance[is_pressure_cell[i] ? i : j];
+    const double b = std::max(0., dual_distance[is_pressure_cell[i] ? j : i]);
+    return a / (a - b);
   }
 
   template <int dim>
@@ -189,10 +230,9 @@ namespace treacle
   {
     const unsigned int n = mesh.face_cells.size();
     open_fraction.assign(n, 0);
-    theta.assign(n, 0);
     solid_velocity.assign(n, 0);
 
-    Vector      mass = mesh.zeros(mesh.faces), part = mesh.zeros(mesh.faces);
+    Vector       mass = mesh.zeros(mesh.faces), part = mesh.zeros(mesh.faces);
     unsigned int n_clamped = 0;
     std::string  error;
     for (LocalIndex f = 0; f < n; ++f)
@@ -200,22 +240,13 @@ namespace treacle
         keep_error(error, [&] { measure_openings(f, state.time); });
         if (f >= mesh.n_owned_faces() || open_fraction[f] == 0)
           continue;
-
         const LocalIndex i = mesh.face_cells[f][0], j = mesh.face_cells[f][1];
         if (!is_active_cell[i] && !is_active_cell[j])
           continue;
-        double &t = part.local_element(f);
-        t         = minimum_theta;
-        if (is_pressure_cell[i] && is_pressure_cell[j])
-          t = 1;
-        else if (is_pressure_cell[i] || is_pressure_cell[j])
-          {
-            const double a      = dual_distance[is_pressure_cell[i] ? i : j];
-            const double b      = std::max(0., dual_distance[is_pressure_cell[i] ? j : i]);
-            const double actual = a / (a - b);
-            t                   = std::max(actual, minimum_theta);
-            n_clamped += actual < minimum_theta;
-          }
+        const double actual = liquid_part_of_dual_edge(f);
+        double      &t      = part.local_element(f);
+        t                   = std::max(actual, minimum_theta);
+        n_clamped += actual < minimum_theta;
         const double rho = (is_active_cell[i] ? density[i] : density[j]) / 2 +
                            (is_active_cell[j] ? density[j] : density[i]) / 2;
         mass.local_element(f) =
@@ -225,24 +256,16 @@ namespace treacle
     n_clamped_faces = Utilities::MPI::sum(n_clamped, mesh.communicator());
     mass.update_ghost_values();
     part.update_ghost_values();
-    face_mass.resize(n);
-    for (LocalIndex f = 0; f < n; ++f)
-      {
-        face_mass[f] = mass.local_element(f);
-        theta[f]     = part.local_element(f);
-      }
+    face_mass.assign(mass.begin(), mass.begin() + n);
+    theta.assign(part.begin(), part.begin() + n);
   }
 
   template <int dim>
   void
   LiquidDomain<dim>::measure_nodes(const State<dim> &state)
   {
-    const unsigned int n = mesh.node_position.size();
-    constrained.assign(n, 0);
-    prescribed.assign(n, Tensor<1, dim>());
-    node_mass.assign(n, 0);
-
     Vector active = mesh.zeros(mesh.nodes);
+    node_mass.assign(mesh.node_position.size(), 0);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
         if (const LocalIndex c = mesh.node_cells[k]; is_active_cell[c])
@@ -251,27 +274,34 @@ namespace treacle
             node_mass[node] += density[c] * liquid_volume[c] / (dim + 1);
           }
     active.update_ghost_values();
-    is_active_node.resize(n);
+    is_active_node.resize(node_mass.size());
+    for (LocalIndex node = 0; node < node_mass.size(); ++node)
+      is_active_node[node] = active.local_element(node) > 0;
+    prescribe_nodes(state.time);
+  }
+
+  template <int dim>
+  void
+  LiquidDomain<dim>::prescribe_nodes(const double time)
+  {
     constexpr unsigned char all = (1u << dim) - 1;
-    std::string             error;
-    for (LocalIndex node = 0; node < n; ++node)
+    constrained.assign(mesh.node_position.size(), 0);
+    prescribed.assign(mesh.node_position.size(), Tensor<1, dim>());
+    std::string error;
+    for (LocalIndex node = 0; node < constrained.size(); ++node)
       {
-        is_active_node[node] = active.local_element(node) > 0;
+        const Point<dim> &x = mesh.node_position[node];
         for (unsigned int wall = 0; wall < Walls<dim>::n; ++wall)
           if (mesh.node_sides[node] >> wall & 1)
             constrained[node] |= scene.no_slip(wall) ? all : 1u << Walls<dim>::axis(wall);
-        if (solid_distance[node] <= 0)
-          {
-            prescribed[node]  = scene.solid_velocity(mesh.node_position[node], state.time);
-            constrained[node] = all;
-          }
-        else if (is_emitter_node[node])
-          {
-            keep_error(error, [&] {
-              prescribed[node] = scene.emitter_velocity(mesh.node_position[node], state.time);
-            });
-            constrained[node] = all;
-          }
+        const bool in_solid = solid_distance[node] <= 0;
+        if (!in_solid && !is_emitter_node[node])
+          continue;
+        constrained[node] = all;
+        keep_error(error, [&] {
+          prescribed[node] =
+            in_solid ? scene.solid_velocity(x, time) : scene.emitter_velocity(x, time);
+        });
       }
     throw_first(mesh.communicator(), error);
   }
@@ -287,9 +317,9 @@ namespace treacle
   }
 
   template double
-  liquid_volume(const Mesh<2> &, const Vector &, const Scene<2> &, const double);
+  liquid_volume(const MeshData<2> &, const Vector &, const double);
   template double
-  liquid_volume(const Mesh<3> &, const Vector &, const Scene<3> &, const double);
+  liquid_volume(const MeshData<3> &, const Vector &, const double);
   template class LiquidDomain<2>;
   template class LiquidDomain<3>;
 } // namespace treacle

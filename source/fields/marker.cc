@@ -26,7 +26,7 @@ namespace treacle
     if (n_ranks == 1)
       return markers;
     const unsigned int      rank = Utilities::MPI::this_mpi_process(comm);
-    const Locator<dim>      locator(mesh);
+    const Locator<dim>     &locator = mesh.locator();
     std::vector<Point<dim>> elsewhere;
     std::vector<bool>       is_here;
     for (const Marker<dim> &marker : markers)

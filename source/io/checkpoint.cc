@@ -151,10 +151,10 @@ namespace treacle
           << "\nFrame = " << progress.frame << "\nCells = " << mesh.cells->size()
           << "\nAdvected material = " << (state.material ? "true" : "false")
           << "\nMarkers = " << n_markers
-          << "\nMesh type = " << (mesh.lattice() ? "lattice" : "file")
+          << "\nMesh type = " << (mesh.is_lattice() ? "lattice" : "file")
           << "\nLower corner = " << to_text(box.first, 17)
           << "\nUpper corner = " << to_text(box.second, 17) << '\n';
-      if (mesh.lattice())
+      if (mesh.is_lattice())
         out << "Root cells = " << mesh.octree().parameters().root_cells
             << "\nSurface level = " << mesh.octree().parameters().surface_level << '\n';
       else
@@ -199,7 +199,7 @@ namespace treacle
     create_directory(comm, fresh);
 
     const Mesh<dim> &mesh = *state.mesh;
-    if (mesh.lattice())
+    if (mesh.is_lattice())
       TableFile<int>::write(comm, fresh + "/leaves", numbers_of_leaves(mesh.octree()));
 
     std::vector<double> rows;
@@ -209,7 +209,7 @@ namespace treacle
                          [&](const Vector &v, const LocalIndex i, const LocalIndex) {
                            rows.push_back(v.local_element(i));
                          });
-    if (!mesh.lattice()) // there owned cells stand in the order of their numbers
+    if (!mesh.is_lattice()) // there owned cells stand in the order of their numbers
       rows = RowOrder<dim>(mesh, size).shares(rows);
     TableFile<double>::write(comm, fresh + "/cells", rows);
     std::vector<double> markers;

@@ -87,7 +87,7 @@ namespace treacle
   void
   Probes<dim>::check(const Mesh<dim> &mesh) const
   {
-    const std::vector<Point<dim>> inside = Locator<dim>(mesh).clamped(positions);
+    const std::vector<Point<dim>> inside = mesh.locator().clamped(positions);
     for (unsigned int k = 0; k < positions.size(); ++k)
       require(positions[k].distance(inside[k]) < 1e-9 * mesh.finest_size(),
               name(k) + "/Position lies outside the mesh: move it, or change Mesh/File.");
@@ -100,7 +100,7 @@ namespace treacle
     if (positions.empty())
       return {};
     const Mesh<dim>    &mesh = domain.mesh;
-    const Locator<dim>  locator(mesh);
+    const Locator<dim> &locator = mesh.locator();
     const auto          owners = locator.owners(positions);
     const unsigned int  rank   = Utilities::MPI::this_mpi_process(mesh.communicator());
     std::vector<double> numbers(positions.size() * (dim + 1), 0.);

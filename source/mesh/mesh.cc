@@ -1,93 +1,66 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/mesh/covering_boxes.h>
 #include <treacle/mesh/imported_mesh.h>
+#include <treacle/mesh/lattice_mesh.h>
 #include <treacle/mesh/mesh.h>
-
-#include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_simplex_p.h>
+#include <treacle/mesh/mesh_numbering.h>
 
 #include <numeric>
 
 namespace treacle
 {
+  namespace
+  {
+    /// An imported mesh need not be Delaunay, and cells of one circumcircle have no
+    /// dual length at all: none is shorter than this part of the distance of the
+    /// barycentres along the normal.
+    constexpr double least_dual_length = 1e-2;
+  } // namespace
+
   template <int dim>
   Mesh<dim>::Mesh(std::shared_ptr<const Octree<dim>> octree)
-    : triangulation(octree->communicator())
-    , comm(octree->communicator())
-    , around({octree->parameters().lower_corner, octree->parameters().upper_corner})
-    , finest(octree->finest_size())
+    : comm(octree->communicator())
+    , tree(std::move(octree))
+    , around({tree->parameters().lower_corner, tree->parameters().upper_corner})
+    , finest(tree->finest_size())
     , largest_at_surface(finest)
   {
-    auto lattice = std::make_unique<LatticeMesh<dim>>(std::move(octree));
+    auto lattice = std::make_unique<LatticeMesh<dim>>(tree);
     make(lattice->take_cells());
-    on_lattice = std::move(lattice);
-    measure_dual_edges();
+    measure_dual_edges(0);
+    finder = make_locator<dim>(*this, std::move(lattice));
   }
 
   template <int dim>
   Mesh<dim>::Mesh(const MPI_Comm &comm, const std::string &file)
-    : triangulation(comm)
-    , comm(comm)
+    : comm(comm)
   {
     ImportedMesh<dim> imported(comm, file);
     finest             = imported.mean_size;
     largest_at_surface = imported.largest_size;
     make(imported.cells);
-    measure_dual_edges();
-    make_tree();
+    measure_dual_edges(least_dual_length);
+    around = find_box();
+    finder = make_locator<dim>(*this, nullptr);
   }
 
   template <int dim>
   void
   Mesh<dim>::make(const MeshCells<dim> &mesh_cells)
   {
-    triangulation.create_triangulation(describe(comm, mesh_cells));
-    number(mesh_cells);
-    fill_cells(mesh_cells);
+    const MeshNumbering<dim> numbering(comm, mesh_cells);
+    nodes = numbering.nodes;
+    faces = numbering.faces;
+    cells = numbering.cells;
+    fill_cells(mesh_cells, numbering);
     fill_faces();
     fill_nodes();
   }
 
   template <int dim>
   void
-  Mesh<dim>::number(const MeshCells<dim> &mesh_cells)
-  {
-    node_dofs.reinit(triangulation);
-    node_dofs.distribute_dofs(FE_SimplexP<dim>(1));
-    face_dofs.reinit(triangulation);
-    face_dofs.distribute_dofs(FaceNormalElement<dim>());
-
-    const auto make = [&](const DoFHandler<dim> &dofs) {
-      IndexSet relevant;
-      DoFTools::extract_locally_relevant_dofs(dofs, relevant);
-      return std::make_shared<const Utilities::MPI::Partitioner>(
-        dofs.locally_owned_dofs(), relevant, comm);
-    };
-    nodes = make(node_dofs);
-    faces = make(face_dofs);
-
-    const unsigned int rank    = Utilities::MPI::this_mpi_process(comm);
-    const GlobalIndex  n_owned = std::count_if(mesh_cells.cells.begin(),
-                                              mesh_cells.cells.end(),
-                                              [&](const auto &cell) { return cell.owner == rank; });
-    GlobalIndex        first   = 0;
-    MPI_Exscan(&n_owned, &first, 1, DEAL_II_DOF_INDEX_MPI_TYPE, MPI_SUM, comm);
-    const GlobalIndex n_cells = Utilities::MPI::sum(n_owned, comm);
-    IndexSet          owned(n_cells), ghosts(n_cells);
-    owned.add_range(first, first + n_owned);
-    std::vector<GlobalIndex> ids;
-    for (const auto &cell : mesh_cells.cells)
-      if (cell.owner != rank)
-        ids.push_back(cell.id);
-    ghosts.add_indices(ids.begin(), ids.end());
-    cells = std::make_shared<const Utilities::MPI::Partitioner>(owned, ghosts, comm);
-  }
-
-  template <int dim>
-  void
-  Mesh<dim>::fill_cells(const MeshCells<dim> &mesh_cells)
+  Mesh<dim>::fill_cells(const MeshCells<dim> &mesh_cells, const MeshNumbering<dim> &numbering)
   {
     const unsigned int n = mesh_cells.cells.size();
     cell_nodes.resize(n);
@@ -102,47 +75,51 @@ namespace treacle
     node_key.resize(n_nodes);
     node_sides.resize(n_nodes);
     face_side.assign(faces->locally_owned_size() + faces->n_ghost_indices(), no_side);
-
-    std::unordered_map<GlobalIndex, unsigned int> index_of;
-    index_of.reserve(n);
     for (unsigned int i = 0; i < n; ++i)
-      index_of[mesh_cells.cells[i].id] = i;
-
-    std::array<unsigned int, dim + 1> opposite; // vertex of deal.II's face f
-    for (unsigned int f = 0; f <= dim; ++f)
-      opposite[f] = opposite_vertex<dim>(f);
-
-    std::vector<GlobalIndex> node_ids(dim + 1), face_ids(dim + 1);
-    for (const auto &cell : triangulation.active_cell_iterators())
       {
-        if (cell->is_artificial())
-          continue;
-        const GlobalIndex id    = cell->id().get_coarse_cell_id();
-        const LocalIndex  local = cells->global_to_local(id);
-        const auto       &from  = mesh_cells.cells[index_of.at(id)];
-        typename DoFHandler<dim>::active_cell_iterator(*cell, &node_dofs)->get_dof_indices(node_ids);
-        typename DoFHandler<dim>::active_cell_iterator(*cell, &face_dofs)->get_dof_indices(face_ids);
+        const auto       &from = mesh_cells.cells[i];
+        const LocalIndex  c    = numbering.cell[i];
         VertexValues<dim> weight;
+        cell_nodes[c] = numbering.cell_nodes[i];
+        cell_faces[c] = numbering.cell_faces[i];
         for (unsigned int v = 0; v <= dim; ++v)
           {
-            const LocalIndex node          = nodes->global_to_local(node_ids[v]);
-            const LocalIndex face          = faces->global_to_local(face_ids[v]);
-            const auto      &vertex        = mesh_cells.vertices[from.vertex[v]];
-            cell_nodes[local][v]           = node;
-            cell_faces[local][opposite[v]] = face;
-            node_key[node]                 = vertex.key;
-            node_position[node]            = vertex.position;
-            node_sides[node]               = vertex.walls;
-            face_side[face]                = from.wall[opposite[v]];
-            weight[v]                      = vertex.weight;
+            const LocalIndex node       = cell_nodes[c][v];
+            const auto      &vertex     = mesh_cells.vertices[from.vertex[v]];
+            node_key[node]              = vertex.key;
+            node_position[node]         = vertex.position;
+            node_sides[node]            = vertex.walls;
+            face_side[cell_faces[c][v]] = from.wall[v];
+            weight[v]                   = vertex.weight;
           }
-        const Simplex<dim> x  = cell_vertices(local);
-        cell_volume[local]    = signed_volume<dim>(x);
-        cell_number[local]    = from.number;
-        cell_size[local]      = from.size;
-        cell_dual[local]      = weighted_circumcentre<dim>(x, weight);
-        cell_gradients[local] = basis_gradients<dim>(x);
+        const Simplex<dim> x = cell_vertices(c);
+        cell_volume[c]       = signed_volume<dim>(x);
+        cell_number[c]       = from.number;
+        cell_size[c]         = from.size;
+        cell_dual[c]         = weighted_circumcentre<dim>(x, weight);
+        cell_gradients[c]    = basis_gradients<dim>(x);
       }
+  }
+
+  template <int dim>
+  void
+  Mesh<dim>::fill_face(const LocalIndex f, const LocalIndex c, const unsigned int i)
+  {
+    std::array<Point<dim>, dim> x;
+    Point<dim>                  centre;
+    for (unsigned int k = 0, v = 0; v <= dim; ++v)
+      if (v != i)
+        {
+          face_nodes[f][k] = cell_nodes[c][v];
+          x[k]             = node_position[cell_nodes[c][v]];
+          centre += x[k++] / dim;
+        }
+    Tensor<1, dim> a = area_vector<dim>(x);
+    if (a * (x[0] - node_position[cell_nodes[c][i]]) < 0)
+      a = -a;
+    face_area[f]   = a.norm();
+    face_normal[f] = a / face_area[f];
+    face_centre[f] = centre;
   }
 
   template <int dim>
@@ -165,36 +142,25 @@ namespace treacle
     for (const LocalIndex c : order)
       for (unsigned int i = 0; i <= dim; ++i)
         {
-          const LocalIndex f = cell_faces[c][i];
-          if (face_cells[f][0] != invalid)
-            {
-              face_cells[f][1] = c;
-              continue;
-            }
-          face_cells[f][0] = c;
-          std::array<Point<dim>, dim> x;
-          Point<dim>                  centre;
-          for (unsigned int k = 0, v = 0; v <= dim; ++v)
-            if (v != i)
-              {
-                face_nodes[f][k] = cell_nodes[c][v];
-                x[k]             = node_position[cell_nodes[c][v]];
-                centre += x[k++] / dim;
-              }
-          Tensor<1, dim> a = area_vector<dim>(x);
-          if (a * (x[0] - node_position[cell_nodes[c][i]]) < 0)
-            a = -a;
-          face_area[f]   = a.norm();
-          face_normal[f] = a / face_area[f];
-          face_centre[f] = centre;
+          const LocalIndex f        = cell_faces[c][i];
+          const bool       is_first = face_cells[f][0] == invalid;
+          face_cells[f][is_first ? 0 : 1] = c;
+          if (is_first)
+            fill_face(f, c, i);
         }
+    agree_on_ghost_faces();
+  }
 
+  template <int dim>
+  void
+  Mesh<dim>::agree_on_ghost_faces()
+  {
     // a ghost's outer face: its owner knows which cell is the lower
     Vector lower = zeros(faces);
     for (LocalIndex f = 0; f < n_owned_faces(); ++f)
       lower.local_element(f) = cell_number[face_cells[f][0]];
     lower.update_ghost_values();
-    for (LocalIndex f = 0; f < n; ++f)
+    for (LocalIndex f = 0; f < face_cells.size(); ++f)
       if (lower.local_element(f) != cell_number[face_cells[f][0]])
         {
           face_cells[f]  = {{invalid, face_cells[f][0]}};
@@ -202,38 +168,40 @@ namespace treacle
         }
   }
 
-  namespace
+  template <int dim>
+  Point<dim>
+  Mesh<dim>::barycentre(const LocalIndex c) const
   {
-    /// An imported mesh need not be Delaunay, and cells of one circumcircle have no
-    /// dual length at all: no dual length is shorter than this part of the distance
-    /// of the barycentres along the normal.
-    constexpr double minimum_dual_length = 1e-2;
-  } // namespace
+    Point<dim> x;
+    for (const LocalIndex node : cell_nodes[c])
+      x += node_position[node] / (dim + 1);
+    return x;
+  }
+
+  template <int dim>
+  Point<dim>
+  Mesh<dim>::end_of_dual_edge(const LocalIndex f) const
+  {
+    const Point<dim> &o = cell_dual[face_cells[f][0]];
+    const LocalIndex  j = face_cells[f][1];
+    return j == invalid ?
+             Point<dim>(o + ((face_centre[f] - o) * face_normal[f]) * face_normal[f]) :
+             cell_dual[j];
+  }
 
   template <int dim>
   void
-  Mesh<dim>::measure_dual_edges()
+  Mesh<dim>::measure_dual_edges(const double least)
   {
-    const auto barycentre = [&](const LocalIndex c) {
-      Point<dim> x;
-      for (const LocalIndex node : cell_nodes[c])
-        x += node_position[node] / (dim + 1);
-      return x;
-    };
     Vector length = zeros(faces);
     for (LocalIndex f = 0; f < n_owned_faces(); ++f)
       {
-        const auto           &[i, j] = face_cells[f];
-        const Tensor<1, dim> &normal = face_normal[f];
-        const Point<dim>     &o      = cell_dual[i];
-        const Point<dim>      end =
-          j == invalid ? Point<dim>(o + ((face_centre[f] - o) * normal) * normal) : cell_dual[j];
-        double &l = length.local_element(f);
-        l         = (end - o) * normal;
-        if (on_lattice || j == invalid)
+        const auto &[i, j] = face_cells[f];
+        double &l          = length.local_element(f);
+        l                  = (end_of_dual_edge(f) - cell_dual[i]) * face_normal[f];
+        if (j == invalid || least == 0)
           continue;
-        const double shortest =
-          minimum_dual_length * ((barycentre(j) - barycentre(i)) * normal);
+        const double shortest = least * ((barycentre(j) - barycentre(i)) * face_normal[f]);
         n_clamped_dual_lengths += l < shortest;
         l = std::max(l, shortest);
       }
@@ -263,47 +231,25 @@ namespace treacle
   }
 
   template <int dim>
-  void
-  Mesh<dim>::make_tree()
+  BoundingBox<dim>
+  Mesh<dim>::find_box() const
   {
-    const auto corners = [&](const LocalIndex c, std::vector<Point<dim>> &x) {
-      for (const LocalIndex node : cell_nodes[c])
-        x.push_back(node_position[node]);
-    };
-    std::vector<BoundingBox<dim>> boxes;
-    std::vector<Point<dim>>       x;
-    for (LocalIndex c = 0; c < cell_nodes.size(); ++c)
+    std::array<double, 2 * dim> most; // of -x and x
+    most.fill(-std::numeric_limits<double>::infinity());
+    for (const Point<dim> &x : node_position)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          most[2 * d]     = std::max(most[2 * d], -x[d]);
+          most[2 * d + 1] = std::max(most[2 * d + 1], x[d]);
+        }
+    MPI_Allreduce(MPI_IN_PLACE, most.data(), most.size(), MPI_DOUBLE, MPI_MAX, comm);
+    Point<dim> lower, upper;
+    for (unsigned int d = 0; d < dim; ++d)
       {
-        x.clear();
-        corners(c, x);
-        boxes.emplace_back(x);
+        lower[d] = -most[2 * d];
+        upper[d] = most[2 * d + 1];
       }
-    std::vector<LocalIndex> order(n_owned_cells());
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](const LocalIndex a, const LocalIndex b) {
-      return cell_number[a] < cell_number[b];
-    });
-    std::vector<typename CellTree<dim>::WallFacet> walls;
-    for (const LocalIndex c : order)
-      for (const LocalIndex f : cell_faces[c])
-        if (face_side[f] != no_side)
-          {
-            walls.push_back({{}, c});
-            for (unsigned int k = 0; k < dim; ++k)
-              walls.back().x[k] = node_position[face_nodes[f][k]];
-          }
-    const auto ranks = Utilities::MPI::all_gather(
-      comm, treacle::covering_boxes<dim>(n_owned_cells(), corners));
-    tree = std::make_unique<const CellTree<dim>>(boxes, walls, ranks);
-    around = tree->box();
-  }
-
-  template <int dim>
-  std::vector<BoundingBox<dim>>
-  Mesh<dim>::covering_boxes() const
-  {
-    return on_lattice ? on_lattice->covering_boxes() :
-                        tree->boxes_of_rank(Utilities::MPI::this_mpi_process(comm));
+    return BoundingBox<dim>({lower, upper});
   }
 
   template class Mesh<2>;

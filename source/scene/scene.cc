@@ -247,6 +247,37 @@ namespace treacle
   }
 
   template <int dim>
+  bool
+  Scene<dim>::has_moving_solids() const
+  {
+    return std::any_of(solids.begin(), solids.end(), [](const Solid<dim> &s) {
+      return s.is_moving();
+    });
+  }
+
+  template <int dim>
+  double
+  Scene<dim>::resting_solid_distance(const Point<dim> &x) const
+  {
+    double distance = far_away;
+    for (const Solid<dim> &solid : solids)
+      if (!solid.is_moving())
+        distance = std::min(distance, solid.signed_distance(x, 0));
+    return distance;
+  }
+
+  template <int dim>
+  double
+  Scene<dim>::moving_solid_distance(const Point<dim> &x, const double t) const
+  {
+    double distance = far_away;
+    for (const Solid<dim> &solid : solids)
+      if (solid.is_moving())
+        distance = std::min(distance, solid.signed_distance(x, t));
+    return distance;
+  }
+
+  template <int dim>
   Tensor<1, dim>
   Scene<dim>::solid_velocity(const Point<dim> &x, const double t) const
   {

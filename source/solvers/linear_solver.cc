@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/choice.h>
 #include <treacle/base/exceptions.h>
 #include <treacle/solvers/linear_solver.h>
 
@@ -14,6 +15,17 @@
 
 namespace treacle
 {
+  namespace
+  {
+    using Preconditioner = LinearSolver::Preconditioner;
+
+    const Choice<Preconditioner> preconditioners{
+      {"amg", Preconditioner::amg},
+      {"incomplete cholesky", Preconditioner::incomplete_cholesky},
+      {"jacobi", Preconditioner::jacobi},
+      {"none", Preconditioner::none}};
+  } // namespace
+
   void
   LinearSolver::Parameters::add_parameters(ParameterHandler  &prm,
                                            const std::string &name,
@@ -21,12 +33,13 @@ namespace treacle
   {
     prm.enter_subsection("Linear solvers");
     prm.enter_subsection(name);
-    prm.add_parameter("Preconditioner",
-                      preconditioner,
-                      "Of the conjugate gradient method: algebraic multigrid, incomplete "
-                      "Cholesky factorization, diagonal, none." +
-                        remark,
-                      Patterns::Selection("amg|incomplete cholesky|jacobi|none"));
+    add_choice(prm,
+               "Preconditioner",
+               preconditioner,
+               "Of the conjugate gradient method: algebraic multigrid, incomplete "
+               "Cholesky factorization, diagonal, none." +
+                 remark,
+               preconditioners);
     prm.add_parameter("Relative tolerance",
                       relative_tolerance,
                       "Norm of the residual over that of the right-hand side.",
@@ -96,14 +109,20 @@ namespace treacle
       p->initialize(matrix);
       use(p);
     };
-    if (prm.preconditioner == "amg")
-      use(make_amg(matrix, this->null_space));
-    else if (prm.preconditioner == "incomplete cholesky")
-      make(std::make_shared<TrilinosWrappers::PreconditionIC>());
-    else if (prm.preconditioner == "jacobi")
-      make(std::make_shared<TrilinosWrappers::PreconditionJacobi>());
-    else
-      make(std::make_shared<TrilinosWrappers::PreconditionIdentity>());
+    switch (prm.preconditioner)
+      {
+        case Preconditioner::amg:
+          use(make_amg(matrix, this->null_space));
+          break;
+        case Preconditioner::incomplete_cholesky:
+          make(std::make_shared<TrilinosWrappers::PreconditionIC>());
+          break;
+        case Preconditioner::jacobi:
+          make(std::make_shared<TrilinosWrappers::PreconditionJacobi>());
+          break;
+        case Preconditioner::none:
+          make(std::make_shared<TrilinosWrappers::PreconditionIdentity>());
+      }
   }
 
   LinearSolver::LinearSolver(const Parameters  &parameters,
@@ -145,7 +164,7 @@ namespace treacle
       {
         std::ostringstream message;
         message << "Linear solvers/" << name << ": conjugate gradients with preconditioner "
-                << prm.preconditioner << " reached a relative residual of "
+                << preconditioners.name(prm.preconditioner) << " reached a relative residual of "
                 << failure.last_residual / norm << " in " << failure.last_step
                 << " iterations instead of " << prm.relative_tolerance
                 << ". Raise Maximum iterations or Relative tolerance, or choose another "

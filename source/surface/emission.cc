@@ -47,67 +47,83 @@ namespace treacle
     }
   } // namespace
 
+  namespace
+  {
+    /// Cuts the liquid in emitters and beside them out of state.phi, and puts the emitters
+    /// in. Returns what was liquid before, @p dt ago. Full then were the emitters that worked
+    /// @p earlier.
+    template <int dim>
+    Vector
+    fill_emitters(State<dim>       &state,
+                  const Scene<dim> &scene,
+                  const double      time,
+                  const double      earlier,
+                  const double      dt)
+    {
+      // what came from inside the emitter, and what was there already. Paths that lead back
+      // through a wall bring none: what sticks to the ceiling beside an emitter, as a skin
+      // of it, must not become a second one
+      const Mesh<dim> &mesh   = *state.mesh;
+      const double     h      = mesh.finest_size();
+      Vector           before = state.phi;
+      before.zero_out_ghost_values();
+      state.phi.zero_out_ghost_values();
+      std::string error;
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        {
+          const Point<dim> &x        = mesh.node_position[node];
+          const double      distance = scene.emitter_distance(x, time);
+          double           &phi      = state.phi.local_element(node);
+          if (distance >= 2 * h)
+            {
+              phi                        = std::min(phi, distance);
+              before.local_element(node) = phi;
+              continue;
+            }
+          keep_error(error, [&] {
+            const Point<dim> from = x - dt * scene.emitter_velocity(x, time);
+            const double depth = depth_beyond(from, scene, time), old = phi;
+            before.local_element(node) =
+              std::max(std::min(old, scene.emitter_distance(from, earlier)), depth);
+            if (depth > 0 && old > -h && scene.emitter_distance(in_box(from, scene), time) > 0)
+              phi = std::max(old, depth);
+            phi = std::min(phi, distance);
+          });
+        }
+      throw_first(mesh.communicator(), error);
+      before.update_ghost_values();
+      state.phi.update_ghost_values();
+      return before;
+    }
+  } // namespace
+
   template <int dim>
   double
-  emit(State<dim> &state, const Scene<dim> &scene, const double dt)
+  emit(State<dim> &state, const MeshData<dim> &data, const double dt)
   {
     // steps end where emitters start and stop. Full when this one began were those that worked
     // just before it, and at t = 0 those that start there
+    const Scene<dim> &scene = data.scene;
     const double time = state.time - 0.5 * dt, earlier = std::max(0., state.time - 1.001 * dt);
     if (std::none_of(scene.emitters().begin(), scene.emitters().end(), [&](const auto &emitter) {
           return emitter.is_at_work(time);
         }))
       return 0;
-
-    // what was liquid before, in an emitter and beside it: what came from inside the
-    // emitter, and what was there already. Paths that lead back through a wall bring none:
-    // what sticks to the ceiling beside an emitter, as a skin of it, must not become a
-    // second one
-    const Mesh<dim> &mesh   = *state.mesh;
-    const double     margin = 2 * mesh.finest_size();
-    Vector           before = state.phi;
-    before.zero_out_ghost_values();
-    state.phi.zero_out_ghost_values();
-    std::string error;
-    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      {
-        const Point<dim> &x        = mesh.node_position[node];
-        const double      distance = scene.emitter_distance(x, time);
-        double           &phi      = state.phi.local_element(node);
-        if (distance < margin)
-          keep_error(error, [&] {
-            const Point<dim> from  = x - dt * scene.emitter_velocity(x, time);
-            const double     depth = depth_beyond(from, scene, time);
-            before.local_element(node) =
-              std::max(std::min(phi, scene.emitter_distance(from, earlier)), depth);
-            const bool   is_skin = phi > -mesh.finest_size();
-            if (depth > 0 && is_skin && scene.emitter_distance(in_box(from, scene), time) > 0)
-              phi = std::max(phi, depth);
-            phi = std::min(phi, distance);
-          });
-        else
-          {
-            phi                        = std::min(phi, distance);
-            before.local_element(node) = phi;
-          }
-      }
-    throw_first(mesh.communicator(), error);
-    before.update_ghost_values();
-    state.phi.update_ghost_values();
+    const Vector before = fill_emitters(state, scene, time, earlier, dt);
     if (state.material)
       set_material(state, scene, time);
     // the liquid that they bounded has come in from behind
     const auto is_inside = [&](const Marker<dim> &marker) {
-      return scene.emitter_distance(marker.position, time) < -0.1 * mesh.finest_size();
+      return scene.emitter_distance(marker.position, time) < -0.1 * data.mesh.finest_size();
     };
     state.markers.erase(std::remove_if(state.markers.begin(), state.markers.end(), is_inside),
                         state.markers.end());
-    return liquid_volume(mesh, state.phi, scene, state.time) -
-           liquid_volume(mesh, before, scene, state.time);
+    before.update_ghost_values();
+    return liquid_volume(data, state.phi, state.time) - liquid_volume(data, before, state.time);
   }
 
   template double
-  emit(State<2> &, const Scene<2> &, const double);
+  emit(State<2> &, const MeshData<2> &, const double);
   template double
-  emit(State<3> &, const Scene<3> &, const double);
+  emit(State<3> &, const MeshData<3> &, const double);
 } // namespace treacle

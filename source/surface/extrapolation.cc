@@ -4,16 +4,18 @@
 #include <treacle/fields/face_node.h>
 #include <treacle/mesh/tracer.h>
 #include <treacle/surface/extrapolation.h>
-#include <treacle/surface/surface_distance.h>
 
 namespace treacle
 {
   template <int dim>
   void
-  extrapolate(State<dim> &state, const LiquidDomain<dim> &domain, const double reach)
+  extrapolate(State<dim>                 &state,
+              const LiquidDomain<dim>    &domain,
+              const SurfaceGeometry<dim> &surface,
+              const double                reach)
   {
-    const Mesh<dim>           &mesh = domain.mesh;
-    const SurfaceDistance<dim> surface(mesh, state.phi, reach);
+    const Mesh<dim>            &mesh  = domain.mesh;
+    const SurfaceDistance<dim> &facets = surface.distance(reach);
 
     std::vector<LocalIndex> nodes;
     std::vector<Point<dim>> sources;
@@ -23,7 +25,7 @@ namespace treacle
           state.v.set(node, Tensor<1, dim>());
           if (std::abs(state.phi.local_element(node)) >= reach)
             continue;
-          const auto nearest = surface.nearest(mesh.node_position[node]);
+          const auto nearest = facets.nearest(mesh.node_position[node]);
           if (!std::isfinite(nearest.distance))
             continue;
           nodes.push_back(node);
@@ -47,7 +49,7 @@ namespace treacle
   }
 
   template void
-  extrapolate(State<2> &, const LiquidDomain<2> &, const double);
+  extrapolate(State<2> &, const LiquidDomain<2> &, const SurfaceGeometry<2> &, const double);
   template void
-  extrapolate(State<3> &, const LiquidDomain<3> &, const double);
+  extrapolate(State<3> &, const LiquidDomain<3> &, const SurfaceGeometry<3> &, const double);
 } // namespace treacle

@@ -3,51 +3,10 @@
 
 #include <treacle/surface/marker_correction.h>
 #include <treacle/surface/near_markers.h>
-#include <treacle/surface/redistance.h>
 #include <treacle/surface/smooth_level_set.h>
 
 namespace treacle
 {
-  template <int dim>
-  std::vector<Marker<dim>>
-  moved_markers(const State<dim> &state, const NodeVector<dim> &velocity, const double dt)
-  {
-    const Mesh<dim> &mesh = *state.mesh;
-    if (Utilities::MPI::max<unsigned int>(state.markers.size(), mesh.communicator()) == 0)
-      return {};
-    const Tracer<dim>             tracer(mesh);
-    const std::vector<Point<dim>> from = positions(state.markers);
-    const std::vector<Point<dim>> to   = tracer.trace(from, velocity, dt);
-
-    std::vector<NodeVector<dim>> gradients;
-    gradients.reserve(dim); // a vector of them that grows would lose their ghosts
-    for (const Vector &component : velocity.component)
-      gradients.push_back(nodal_gradient(mesh, component));
-    std::vector<NodeField<dim>> fields;
-    for (const NodeVector<dim> &gradient : gradients)
-      for (const Vector &component : gradient.component)
-        fields.push_back({&component});
-    std::vector<Point<dim>> middle(from.size());
-    for (unsigned int k = 0; k < from.size(); ++k)
-      middle[k] = from[k] + 0.5 * (to[k] - from[k]);
-    const std::vector<double> numbers = tracer.evaluate(middle, fields);
-
-    std::vector<Marker<dim>> moved(from.size());
-    for (unsigned int k = 0; k < from.size(); ++k)
-      {
-        // dn/dt = -(grad u)^T n by the implicit midpoint rule; the length does not matter
-        const Tensor<1, dim> &old = state.markers[k].normal;
-        Tensor<2, dim>        half;
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = 0; j < dim; ++j)
-            half[j][i] = 0.5 * dt * numbers[(k * dim + i) * dim + j];
-        const Tensor<1, dim> normal = invert(Tensor<2, dim>(unit_symmetric_tensor<dim>()) + half) * (old - half * old);
-        const double         length = normal.norm();
-        moved[k] = {to[k], std::isfinite(length) && length > 0 ? normal / length : old};
-      }
-    return moved;
-  }
-
   namespace
   {
     template <int dim>
@@ -181,11 +140,8 @@ namespace treacle
     state.phi.update_ghost_values();
   }
 
-#define INSTANTIATE(dim)                                                                      \
-  template std::vector<Marker<dim>> moved_markers(                                            \
-    const State<dim> &, const NodeVector<dim> &, const double);                               \
-  template void correct_by_markers(State<dim> &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  template void
+  correct_by_markers(State<2> &);
+  template void
+  correct_by_markers(State<3> &);
 } // namespace treacle

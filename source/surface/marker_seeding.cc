@@ -1,75 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/base/exceptions.h>
-#include <treacle/base/exchange.h>
 #include <treacle/surface/marker_seeding.h>
 #include <treacle/surface/near_markers.h>
-#include <treacle/surface/smooth_level_set.h>
-#include <treacle/surface/surface.h>
 
 namespace treacle
 {
-  namespace
-  {
-    /// Does the surface pass through cells of this rank?
-    template <int dim>
-    bool
-    cuts_cells(const State<dim> &state)
-    {
-      for (LocalIndex c = 0; c < state.mesh->n_owned_cells(); ++c)
-        if (surface_facets<dim>(state.mesh->values(c, state.phi)).n > 0)
-          return true;
-      return false;
-    }
-  } // namespace
-
-  template <int dim>
-  void
-  remove_stray_markers(State<dim> &state, const Scene<dim> &scene)
-  {
-    const Mesh<dim> &mesh   = *state.mesh;
-    const double     h      = mesh.finest_size();
-    const auto      &box    = mesh.box();
-    const auto       on_box = [&, h](const Point<dim> &x) {
-      for (unsigned int d = 0; d < dim; ++d)
-        if (x[d] < box.lower_bound(d) + 1e-6 * h || x[d] > box.upper_bound(d) - 1e-6 * h)
-          return true;
-      return false;
-    };
-    const auto samples =
-      SmoothLevelSet<dim>(mesh, state.phi).samples(positions(state.markers));
-    std::vector<Marker<dim>> kept;
-    unsigned int             n_lost = 0;
-    for (unsigned int k = 0; k < samples.size(); ++k)
-      {
-        const Marker<dim>  &marker    = state.markers[k];
-        const double        phi       = samples[k].value;
-        const bool          is_smooth = samples[k].smoothness > 0.9;
-        const Tensor<1, dim> gradient = samples[k].gradient;
-        // in the liquid two surfaces may have met; but air around a marker, or no
-        // number, says that the surface was lost
-        n_lost += !(phi < h);
-        if (!(std::abs(phi) < 0.75 * h) || on_box(marker.position) ||
-            (is_smooth && gradient * marker.normal < 0) ||
-            (scene.has_solids() && scene.solid_distance(marker.position, state.time) < 0))
-          continue;
-        kept.push_back(marker);
-        if (is_smooth)
-          kept.back().normal = gradient / gradient.norm();
-      }
-    const MPI_Comm    &comm  = mesh.communicator();
-    const unsigned int lost  = Utilities::MPI::sum(n_lost, comm);
-    const unsigned int total = Utilities::MPI::sum<unsigned int>(state.markers.size(), comm);
-    // where nothing is left, as of a film that withered, there is nothing to follow
-    require(2 * lost <= total || Utilities::MPI::max(cuts_cells(state) ? 1 : 0, comm) == 0,
-            "Surface tracking: " + std::to_string(lost) + " of " + std::to_string(total) +
-              " markers are further than a leaf from the surface at t = " +
-              digits(state.time) +
-              " s. Lower Maximum CFL number or Maximum time step, or raise Mesh/Surface level.");
-    state.markers = std::move(kept);
-  }
-
   namespace
   {
     /// A number in [0, 1) from an integer, the same everywhere (splitmix64).
@@ -111,10 +47,14 @@ namespace treacle
     class Seeding
     {
     public:
-      Seeding(State<dim> &state, const Scene<dim> &scene, const unsigned int per_cell)
+      Seeding(State<dim>                 &state,
+              const Scene<dim>           &scene,
+              const SurfaceGeometry<dim> &surface,
+              const unsigned int          per_cell)
         : state(state)
         , mesh(*state.mesh)
         , scene(scene)
+        , surface(surface)
         , density(per_cell / (mean_facet_area<dim> * std::pow(mesh.finest_size(), dim - 1)))
         , count(mesh.cells)
         , wanted(mesh.cells)
@@ -130,26 +70,6 @@ namespace treacle
       }
 
     private:
-      template <typename Visit>
-      void
-      for_each_facet(const LocalIndex cell, const Visit &visit) const
-      {
-        const VertexValues<dim> phi    = mesh.values(cell, state.phi);
-        const Facets<dim>       facets = surface_facets<dim>(phi);
-        for (unsigned int k = 0; k < facets.n; ++k)
-          {
-            std::array<Point<dim>, dim> x;
-            for (unsigned int i = 0; i < dim; ++i)
-              {
-                const auto [a, b] = facets.facet[k][i];
-                const Point<dim> &from = mesh.node_position[mesh.cell_nodes[cell][a]];
-                x[i] = from + edge_zero(phi[a], phi[b]) *
-                                (mesh.node_position[mesh.cell_nodes[cell][b]] - from);
-              }
-            visit(x);
-          }
-      }
-
       std::uint64_t
       key(const LocalIndex cell) const
       {
@@ -163,7 +83,7 @@ namespace treacle
       measure_cells()
       {
         for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
-          for_each_facet(c, [&](const auto &x) {
+          for_each_facet(mesh, state.phi, c, [&](const auto &x) {
             wanted.local_element(c) += density * area_vector<dim>(x).norm();
           });
         wanted.update_ghost_values();
@@ -172,7 +92,7 @@ namespace treacle
       void
       count_markers()
       {
-        const Locator<dim> locator(mesh);
+        const Locator<dim> &locator = mesh.locator();
         for (const Marker<dim> &marker : state.markers)
           {
             cells.push_back(locator.locate_here(marker.position).cell);
@@ -213,7 +133,7 @@ namespace treacle
               continue;
             const double start   = scattered(key(c));
             double       missing = target - count.local_element(c), part = start;
-            for_each_facet(c, [&](const auto &x) {
+            for_each_facet(mesh, state.phi, c, [&](const auto &x) {
               const Tensor<1, dim> area = area_vector<dim>(x);
               if (area.norm() == 0)
                 return;
@@ -255,10 +175,9 @@ namespace treacle
       void
       project(std::vector<Marker<dim>> &seeds) const
       {
-        const SmoothLevelSet<dim> phi(mesh, state.phi);
         for (unsigned int round = 0; round < 2; ++round)
           {
-            const auto samples = phi.samples(positions(seeds));
+            const auto samples = surface.level_set.samples(positions(seeds));
             for (unsigned int k = 0; k < seeds.size(); ++k)
               if (samples[k].smoothness > 0.9)
                 {
@@ -266,35 +185,35 @@ namespace treacle
                   seeds[k].position -= samples[k].value * g / g.norm_square();
                   seeds[k].normal = g / g.norm();
                 }
-            const auto moved = Locator<dim>(mesh).clamped(positions(seeds));
+            const auto moved = mesh.locator().clamped(positions(seeds));
             for (unsigned int k = 0; k < seeds.size(); ++k)
               seeds[k].position = moved[k];
           }
       }
 
-      State<dim>              &state;
-      const Mesh<dim>         &mesh;
-      const Scene<dim>        &scene;
-      const double             density; ///< markers per area
-      Vector                   count;   ///< of markers in each cell
-      Vector                   wanted;
-      std::vector<LocalIndex>  cells; ///< of the markers of this rank
+      State<dim>                 &state;
+      const Mesh<dim>            &mesh;
+      const Scene<dim>           &scene;
+      const SurfaceGeometry<dim> &surface;
+      const double                density; ///< markers per area
+      Vector                      count;   ///< of markers in each cell
+      Vector                      wanted;
+      std::vector<LocalIndex>     cells; ///< of the markers of this rank
     };
   } // namespace
 
   template <int dim>
   void
-  reseed_markers(State<dim> &state, const Scene<dim> &scene, const unsigned int per_cell)
+  reseed_markers(State<dim>                 &state,
+                 const Scene<dim>           &scene,
+                 const SurfaceGeometry<dim> &surface,
+                 const unsigned int          per_cell)
   {
-    Seeding<dim>(state, scene, per_cell).reseed();
+    Seeding<dim>(state, scene, surface, per_cell).reseed();
   }
 
   template void
-  remove_stray_markers(State<2> &, const Scene<2> &);
+  reseed_markers(State<2> &, const Scene<2> &, const SurfaceGeometry<2> &, const unsigned int);
   template void
-  remove_stray_markers(State<3> &, const Scene<3> &);
-  template void
-  reseed_markers(State<2> &, const Scene<2> &, const unsigned int);
-  template void
-  reseed_markers(State<3> &, const Scene<3> &, const unsigned int);
+  reseed_markers(State<3> &, const Scene<3> &, const SurfaceGeometry<3> &, const unsigned int);
 } // namespace treacle

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/surface/redistance.h>
+#include <treacle/fields/gradients.h>
 #include <treacle/surface/smooth_level_set.h>
 
 namespace treacle

@@ -13,14 +13,27 @@ namespace treacle
   namespace bgi = boost::geometry::index;
 
   template <int dim>
-  SurfaceDistance<dim>::SurfaceDistance(const Mesh<dim> &mesh, const Vector &phi, const double reach)
+  SurfaceDistance<dim>::SurfaceDistance(const Mesh<dim>    &mesh,
+                                        const Surface<dim> &surface,
+                                        const double        reach)
     : reach(reach)
     , box(mesh.box())
   {
-    const Surface<dim> surface = extract_surface(mesh, phi);
-    const MPI_Comm    &comm    = mesh.communicator();
-    const NearRanks<dim>       near(mesh, reach);
+    gather_facets(mesh, surface);
+    std::vector<std::pair<BoundingBox<dim>, unsigned int>> entries;
+    for (unsigned int k = 0; k < facets.size(); ++k)
+      entries.emplace_back(
+        BoundingBox<dim>(std::vector<Point<dim>>(facets[k].begin(), facets[k].end())), k);
+    tree = pack_rtree(entries);
+    if (!tree.empty())
+      boost::geometry::convert(tree.bounds(), bounds);
+  }
 
+  template <int dim>
+  void
+  SurfaceDistance<dim>::gather_facets(const Mesh<dim> &mesh, const Surface<dim> &surface)
+  {
+    const NearRanks<dim>                   near(mesh, reach);
     PerRank<std::array<double, dim * dim>> to_rank(near.n_ranks());
     for (unsigned int k = 0; k < surface.facets.size(); ++k)
       {
@@ -34,7 +47,7 @@ namespace treacle
               to_rank[r].back()[dim * i + d] = x[i][d];
         });
       }
-    for (const auto &received : send_and_receive(comm, to_rank))
+    for (const auto &received : send_and_receive(mesh.communicator(), to_rank))
       for (const auto &numbers : received)
         {
           facets.emplace_back();
@@ -42,14 +55,6 @@ namespace treacle
             for (unsigned int d = 0; d < dim; ++d)
               facets.back()[i][d] = numbers[dim * i + d];
         }
-
-    std::vector<std::pair<BoundingBox<dim>, unsigned int>> entries;
-    for (unsigned int k = 0; k < facets.size(); ++k)
-      entries.emplace_back(
-        BoundingBox<dim>(std::vector<Point<dim>>(facets[k].begin(), facets[k].end())), k);
-    tree = pack_rtree(entries);
-    if (!tree.empty())
-      boost::geometry::convert(tree.bounds(), bounds);
   }
 
   template <int dim>

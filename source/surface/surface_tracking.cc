@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/choice.h>
+#include <treacle/fields/liquid_domain.h>
 #include <treacle/surface/marker_correction.h>
 #include <treacle/surface/marker_seeding.h>
 #include <treacle/surface/redistance.h>
-#include <treacle/surface/surface.h>
+#include <treacle/surface/stray_markers.h>
 #include <treacle/surface/surface_tracking.h>
 
 namespace treacle
@@ -14,11 +16,13 @@ namespace treacle
   SurfaceTracking<dim>::Parameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Surface tracking");
-    prm.add_parameter("Method",
-                      method,
-                      "What follows the surface: a level set, corrected by markers that are "
-                      "carried along or not. Markers keep thin parts, edges and volume.",
-                      Patterns::Selection("marker level set|level set"));
+    add_choice<Method>(prm,
+                       "Method",
+                       method,
+                       "What follows the surface: a level set, corrected by markers that are "
+                       "carried along or not. Markers keep thin parts, edges and volume.",
+                       {{"marker level set", Method::marker_level_set},
+                        {"level set", Method::level_set}});
     prm.add_parameter("Markers per cell",
                       markers_per_cell,
                       "Mean number of markers in a cell that the surface cuts.",
@@ -37,20 +41,21 @@ namespace treacle
     double
     surface_area(const State<dim> &state)
     {
-      const Surface<dim> surface = extract_surface(*state.mesh, state.phi);
-      double             area    = 0;
-      for (unsigned int k = 0; k < surface.facets.size(); ++k)
-        area += area_vector<dim>(surface.facet_points(k)).norm();
+      double area = 0;
+      for (LocalIndex c = 0; c < state.mesh->n_owned_cells(); ++c)
+        for_each_facet(*state.mesh, state.phi, c, [&](const auto &x) {
+          area += area_vector<dim>(x).norm();
+        });
       return Utilities::MPI::sum(area, state.mesh->communicator());
     }
   } // namespace
 
   template <int dim>
-  void
-  SurfaceTracking<dim>::advance(State<dim>       &state,
-                                const Scene<dim> &scene,
-                                const double      reach,
-                                const double      volume) const
+  std::unique_ptr<const SurfaceGeometry<dim>>
+  SurfaceTracking<dim>::advance(State<dim>          &state,
+                                const MeshData<dim> &data,
+                                const double         reach,
+                                const double         volume) const
   {
     if (has_markers())
       correct_by_markers(state);
@@ -58,38 +63,43 @@ namespace treacle
     if (has_markers())
       correct_by_markers(state);
     if (prm.volume_correction)
-      correct_volume(state, scene, volume);
+      correct_volume(state, data, volume);
+    auto surface = std::make_unique<const SurfaceGeometry<dim>>(state.mesh, state.phi);
     if (has_markers())
-      remove_stray_markers(state, scene);
-    reseed(state, scene);
+      remove_stray_markers(state, data.scene, *surface);
+    reseed(state, data.scene, *surface);
+    return surface;
   }
 
   template <int dim>
   void
-  SurfaceTracking<dim>::reseed(State<dim> &state, const Scene<dim> &scene) const
+  SurfaceTracking<dim>::reseed(State<dim>                 &state,
+                               const Scene<dim>           &scene,
+                               const SurfaceGeometry<dim> &surface) const
   {
     if (has_markers())
-      reseed_markers(state, scene, prm.markers_per_cell);
+      reseed_markers(state, scene, surface, prm.markers_per_cell);
     else
       state.markers.clear();
   }
 
   template <int dim>
   void
-  SurfaceTracking<dim>::correct_volume(State<dim>       &state,
-                                       const Scene<dim> &scene,
-                                       const double      volume) const
+  SurfaceTracking<dim>::correct_volume(State<dim>          &state,
+                                       const MeshData<dim> &data,
+                                       const double         volume) const
   {
     // Newton's method: the derivative of the volume is the area. A lost drop
     // must not blow up the rest in one step, hence the bound.
-    const double largest = 0.1 * state.mesh->finest_size();
+    const double largest = 0.1 * data.mesh.finest_size();
     double       offset  = 0;
     for (unsigned int k = 0; k < 2; ++k)
       {
         const double area = surface_area(state);
         if (area == 0)
           break;
-        const double wanted = offset + (liquid_volume(*state.mesh, state.phi, scene, state.time) - volume) / area;
+        const double wanted =
+          offset + (liquid_volume(data, state.phi, state.time) - volume) / area;
         const double change = std::min(std::max(wanted, -largest), largest) - offset;
         offset += change;
         state.phi.zero_out_ghost_values();
@@ -98,7 +108,7 @@ namespace treacle
       }
     for (Marker<dim> &marker : state.markers)
       marker.position -= offset * marker.normal;
-    state.markers = to_owners(*state.mesh, state.markers);
+    state.markers = to_owners(data.mesh, state.markers);
   }
 
   template class SurfaceTracking<2>;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/choice.h>
 #include <treacle/mesh/tracer.h>
-#include <treacle/surface/marker_correction.h>
+#include <treacle/surface/marker_motion.h>
 #include <treacle/transport/advection.h>
 #include <treacle/transport/back_and_forth.h>
 #include <treacle/transport/surface_velocity.h>
@@ -37,10 +38,26 @@ namespace treacle
     /// In the middle of the step: as steady as it was before it.
     template <int dim>
     NodeVector<dim>
-    velocity_in_middle(const State<dim> &old, const double dt, const BackwardDifference &difference)
+    velocity_in_middle(const State<dim> &old, const BackwardDifference &difference)
     {
-      const double part = difference.before == 0 ? 0. : 0.5 * dt / old.before->dt;
+      const double part =
+        difference.before == 0 ? 0. : 0.5 * difference.dt / old.before->dt;
       return combined(1 + part, old.v, -part, part == 0 ? old.v : *old.before->v);
+    }
+
+    /// The faces that may carry liquid, for a node of them is closer to it than @p reach.
+    template <int dim>
+    std::vector<LocalIndex>
+    faces_within(const State<dim> &state, const double reach)
+    {
+      const Mesh<dim>        &mesh = *state.mesh;
+      std::vector<LocalIndex> faces;
+      for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
+        if (std::any_of(mesh.face_nodes[f].begin(), mesh.face_nodes[f].end(), [&](const auto node) {
+              return state.phi.local_element(node) < reach;
+            }))
+          faces.push_back(f);
+      return faces;
     }
   } // namespace
 
@@ -49,27 +66,30 @@ namespace treacle
   Advection<dim>::Parameters::add_parameters(ParameterHandler &handler)
   {
     handler.enter_subsection("Advection");
-    handler.add_parameter("Scheme",
-                          scheme,
-                          "How velocity and material are carried along: MacCormack's correction keeps more of "
-                          "what is small, at about twice the work.",
-                          Patterns::Selection("semi-Lagrangian|MacCormack"));
+    add_choice<Scheme>(handler,
+                       "Scheme",
+                       scheme,
+                       "How velocity and material are carried along: MacCormack's correction "
+                       "keeps more of what is small, at about twice the work.",
+                       {{"semi-Lagrangian", Scheme::semi_lagrangian},
+                        {"MacCormack", Scheme::maccormack}});
     handler.leave_subsection();
   }
 
   template <int dim>
-  Advection<dim>::Advection(const Parameters        &parameters,
-                            const State<dim>        &old,
-                            const LiquidDomain<dim> &domain,
-                            const double             dt)
+  Advection<dim>::Advection(const Parameters           &parameters,
+                            const State<dim>           &old,
+                            const LiquidDomain<dim>    &domain,
+                            const SurfaceGeometry<dim> &surface,
+                            const BackwardDifference   &difference)
     : prm(parameters)
     , old(old)
-    , dt(dt)
-    , difference(dt, old)
-    , velocity(velocity_in_middle(old, dt, difference))
+    , surface(surface)
+    , difference(difference)
+    , dt(difference.dt)
+    , velocity(velocity_in_middle(old, difference))
     , surface_velocity(treacle::surface_velocity(
         old, domain, velocity, dt * maximum_speed(old, domain) + 2 * old.mesh->finest_size()))
-    , phi(*old.mesh, old.phi)
   {}
 
   template <int dim>
@@ -90,7 +110,7 @@ namespace treacle
   std::vector<double>
   Advection<dim>::level_set(const std::vector<Point<dim>> &x) const
   {
-    return phi.values(Tracer<dim>(*old.mesh).trace(x, surface_velocity, -dt));
+    return surface.level_set.values(Tracer<dim>(*old.mesh).trace(x, surface_velocity, -dt));
   }
 
   template <int dim>
@@ -105,7 +125,7 @@ namespace treacle
     for (const Vector *field : fields)
       node_fields.push_back({field});
     std::vector<Vector> correction;
-    if (prm.scheme == "MacCormack")
+    if (prm.scheme == Scheme::maccormack)
       {
         std::vector<LocalIndex> known, corrected;
         for (LocalIndex node = 0; node < old.mesh->n_owned_nodes(); ++node)
@@ -166,7 +186,7 @@ namespace treacle
     const Mesh<dim>              &mesh = *state.mesh;
     const std::vector<Point<dim>> from =
       Tracer<dim>(*old.mesh).trace(owned_nodes(mesh), surface_velocity, -dt);
-    const std::vector<double> values = phi.values(from);
+    const std::vector<double> values = surface.level_set.values(from);
     std::copy(values.begin(), values.end(), state.phi.begin());
     state.phi.update_ghost_values();
     if (!old.material)
@@ -186,17 +206,11 @@ namespace treacle
   void
   Advection<dim>::advance_faces(State<dim> &state, const double reach) const
   {
-    const Mesh<dim>        &mesh = *state.mesh;
-    std::vector<LocalIndex> faces;
-    std::vector<Point<dim>> x;
-    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
-      if (std::any_of(mesh.face_nodes[f].begin(), mesh.face_nodes[f].end(), [&](const auto node) {
-            return state.phi.local_element(node) < reach;
-          }))
-        {
-          faces.push_back(f);
-          x.push_back(mesh.face_centre[f]);
-        }
+    const Mesh<dim>              &mesh  = *state.mesh;
+    const std::vector<LocalIndex> faces = faces_within(state, reach);
+    std::vector<Point<dim>>       x;
+    for (const LocalIndex f : faces)
+      x.push_back(mesh.face_centre[f]);
     const auto add = [&](const double                   weight,
                          const NodeVector<dim>         &v,
                          const std::vector<Point<dim>> &from,

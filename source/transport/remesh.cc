@@ -149,16 +149,17 @@ namespace treacle
   std::shared_ptr<const Mesh<dim>>
   mesh_for_next_surface(const State<dim>               &state,
                         const Scene<dim>               &scene,
+                        const SurfaceGeometry<dim>     &surface,
                         const Advection<dim>           &advection,
                         const std::vector<Marker<dim>> &markers,
                         const double                    dt)
   {
     const Mesh<dim> &mesh = *state.mesh;
-    if (!mesh.lattice())
+    if (!mesh.is_lattice())
       return state.mesh;
     const Octree<dim>            &octree = mesh.octree();
     std::vector<Point<dim>> moved =
-      advection.move_surface(sample_points(extract_surface(mesh, state.phi)));
+      advection.move_surface(sample_points(surface.facets));
     for (const Marker<dim> &marker : markers)
       moved.push_back(marker.position);
     if (Band<dim>(octree, moved, 1).is_finest_in(octree))
@@ -184,6 +185,7 @@ namespace treacle
   template std::shared_ptr<const Mesh<dim>> mesh_for_next_surface(              \
     const State<dim> &,                                                         \
     const Scene<dim> &,                                                         \
+    const SurfaceGeometry<dim> &,                                               \
     const Advection<dim> &,                                                     \
     const std::vector<Marker<dim>> &,                                           \
     const double);

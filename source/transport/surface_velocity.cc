@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/fields/face_node.h>
 #include <treacle/fields/gradients.h>
+#include <treacle/fields/layers.h>
 #include <treacle/transport/surface_velocity.h>
 
 namespace treacle
@@ -13,41 +13,23 @@ namespace treacle
     /// around it, layer by layer.
     template <int dim>
     void
-    continue_outwards(const Mesh<dim>                  &mesh,
+    continue_velocity(const MeshData<dim>              &data,
                       Vector                           &is_known,
                       const std::vector<unsigned char> &components,
                       const unsigned int                n_layers,
                       NodeVector<dim>                  &v)
     {
-      std::vector<LocalIndex> unknown;
-      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-        if (is_known.local_element(node) == 0)
-          unknown.push_back(node);
-      is_known.update_ghost_values();
-      v.update_ghost_values();
-      for (unsigned int layer = 0; layer < n_layers; ++layer)
-        {
-          std::vector<std::pair<LocalIndex, Tensor<1, dim>>> found;
-          Tensor<1, dim>                                     mean;
-          for (const LocalIndex node : unknown)
-            if (mean_of_neighbours(mesh, v, is_known, node, mean))
-              found.emplace_back(node, mean);
-          for (const auto &[node, value] : found)
-            {
-              is_known.local_element(node) = 1;
-              for (unsigned int d = 0; d < dim; ++d)
-                if (components[node] >> d & 1)
-                  v.component[d].local_element(node) = value[d];
-            }
-          unknown.erase(std::remove_if(unknown.begin(),
-                                       unknown.end(),
-                                       [&](const LocalIndex node) {
-                                         return is_known.local_element(node) > 0;
-                                       }),
-                        unknown.end());
-          is_known.update_ghost_values();
-          v.update_ghost_values();
-        }
+      continue_outwards(
+        data,
+        is_known,
+        n_layers,
+        [&](const LocalIndex node) { return v.value(node); },
+        [&](const LocalIndex node, const Tensor<1, dim> &value) {
+          for (unsigned int d = 0; d < dim; ++d)
+            if (components[node] >> d & 1)
+              v.component[d].local_element(node) = value[d];
+        },
+        [&] { v.update_ghost_values(); });
     }
 
     /// The velocity gradient at free nodes in the liquid, mean over the cells around a node that
@@ -115,26 +97,27 @@ namespace treacle
             state.phi.local_element(node) <= 0 || domain.is_active_node[node];
           if (state.phi.local_element(node) <= 0 || !domain.is_active_node[node])
             continue;
-          Tensor<1, dim> sum;
-          unsigned int   n = 0;
-          for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
-            for (const LocalIndex other : mesh.cell_nodes[mesh.node_cells[k]])
-              if (gradient.is_known.local_element(other) > 0)
-                {
-                  const Tensor<1, dim> d = mesh.node_position[node] - mesh.node_position[other];
-                  sum += v.value(other);
-                  for (unsigned int a = 0; a < dim; ++a)
-                    sum[a] += gradient.row[a].value(other) * d;
-                  ++n;
-                }
-          if (n > 0)
-            added.set(node, sum / n - v.value(node));
+          Tensor<1, dim> mean;
+          const bool     is_found = mean_of_neighbours(
+            domain.data,
+            node,
+            [&](const LocalIndex other) { return gradient.is_known.local_element(other) > 0; },
+            [&](const LocalIndex other) {
+              const Tensor<1, dim> d = mesh.node_position[node] - mesh.node_position[other];
+              Tensor<1, dim>       linear = v.value(other);
+              for (unsigned int a = 0; a < dim; ++a)
+                linear[a] += gradient.row[a].value(other) * d;
+              return linear;
+            },
+            mean);
+          if (is_found)
+            added.set(node, mean - v.value(node));
         }
       constexpr unsigned char all = (1u << dim) - 1;
       // nodes lie at least half a leaf apart
       const unsigned int n_layers = std::ceil(2 * distance / mesh.finest_size());
-      continue_outwards(
-        mesh, is_known, std::vector<unsigned char>(mesh.n_owned_nodes(), all), n_layers, added);
+      continue_velocity(
+        domain.data, is_known, std::vector<unsigned char>(mesh.n_owned_nodes(), all), n_layers, added);
       return added;
     }
   } // namespace
@@ -156,7 +139,7 @@ namespace treacle
         is_free.local_element(node) =
           domain.constrained[node] == 0 || domain.is_emitter_node[node];
       }
-    continue_outwards(mesh, is_free, domain.constrained, 3, result);
+    continue_velocity(domain.data, is_free, domain.constrained, 3, result);
     return result;
   }
 

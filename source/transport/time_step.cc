@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/choice.h>
 #include <treacle/transport/time_step.h>
 
 namespace treacle
@@ -22,12 +23,14 @@ namespace treacle
                       maximum,
                       "Largest size of a step (s).",
                       Patterns::Double(1e-12));
-    prm.add_parameter("Time scheme",
-                      scheme,
-                      "BDF2 is of second order: the derivative of the velocity along paths takes "
-                      "in the step before, and the surface moves with the velocity of the step's middle. "
-                      "backward Euler is of first order, and forgets at once.",
-                      Patterns::Selection("BDF2|backward Euler"));
+    add_choice<Scheme>(
+      prm,
+      "Time scheme",
+      scheme,
+      "BDF2 is of second order: the derivative of the velocity along paths takes "
+      "in the step before, and the surface moves with the velocity of the step's middle. "
+      "backward Euler is of first order, and forgets at once.",
+      {{"BDF2", Scheme::bdf2}, {"backward Euler", Scheme::backward_euler}});
   }
 
   template <int dim>

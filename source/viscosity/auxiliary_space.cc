@@ -36,26 +36,37 @@ namespace treacle
   {
     set_node_mass();
     LinearSolver::Parameters amg = prm;
-    amg.preconditioner           = "amg";
+    amg.preconditioner           = LinearSolver::Preconditioner::amg;
     multigrid                    = std::make_unique<const LinearSolver>(
       amg, "Viscosity", stiff, system.stress_free_motions(stiffness));
   }
+
+  namespace
+  {
+    /// dim times the blocks of W on the diagonal, for owned nodes.
+    template <int dim>
+    std::vector<Tensor<2, dim>>
+    mass_blocks(const LiquidDomain<dim> &domain)
+    {
+      const Mesh<dim>            &mesh = domain.mesh;
+      std::vector<Tensor<2, dim>> block(mesh.node_position.size());
+      // faces of ghosts too: all that touch an owned node are known
+      for (LocalIndex f = 0; f < mesh.face_nodes.size(); ++f)
+        if (domain.is_liquid_face(f))
+          for (const LocalIndex node : mesh.face_nodes[f])
+            block[node] += domain.face_mass[f] / dim *
+                           outer_product(mesh.face_normal[f], mesh.face_normal[f]);
+      return block;
+    }
+  } // namespace
 
   template <int dim>
   void
   AuxiliarySpace<dim>::set_node_mass()
   {
-    const LiquidDomain<dim>    &domain = system.domain;
-    const auto                 &nodes  = face_coupled.H.nodes();
-    std::vector<Tensor<2, dim>> block(domain.mesh.node_position.size());
-    // faces of ghosts too: all that touch an owned node are known
-    for (LocalIndex f = 0; f < domain.mesh.face_nodes.size(); ++f)
-      if (domain.is_liquid_face(f))
-        for (const LocalIndex node : domain.mesh.face_nodes[f])
-          block[node] +=
-            domain.face_mass[f] / dim *
-            outer_product(domain.mesh.face_normal[f], domain.mesh.face_normal[f]);
-
+    const LiquidDomain<dim>          &domain = system.domain;
+    const auto                       &nodes  = face_coupled.H.nodes();
+    const std::vector<Tensor<2, dim>> block  = mass_blocks(domain);
     stiff.copy_from(*face_coupled.stiffness().matrix);
     m.resize(nodes.size());
     inverse_m.resize(nodes.size());

@@ -22,7 +22,7 @@ namespace treacle
   template <int dim>
   Hybrid<dim>::Hybrid(const NodeSystem<dim>                     &system,
                       const typename NodeSystem<dim>::Stiffness &stiffness,
-                      const double                               dt,
+                      const double                               step,
                       const Faces                                faces)
     : system(system)
     , is_idle(find_idle(faces))
@@ -43,7 +43,7 @@ namespace treacle
               h = std::min(h, mesh.cell_size[c]);
               ++n;
             }
-        const double ratio = n > 0 ? drag * nu / n * dt / (h * h) : 0;
+        const double ratio = n > 0 ? drag * nu / n * step / (h * h) : 0;
         const double s           = std::max(ratio / (1 + ratio), least_share);
         part.local_element(f)    = s;
         weights.local_element(f) = domain.face_mass[f] * (is_idle[f] ? idle * s : s);
@@ -68,7 +68,7 @@ namespace treacle
     if (faces == Faces::all)
       return result;
     const Numbering       active(mesh.cells, domain.is_active_cell);
-    const Vector          label = label_pieces(domain, active);
+    const Vector          label = label_connected(domain, active);
     std::set<GlobalIndex> here;
     for (const LocalIndex c : active.owned)
       if (domain.is_pressure_cell[c])
@@ -78,15 +78,15 @@ namespace treacle
       {
         if (!domain.is_liquid_face(f))
           continue;
-        bool is_beside_pressure = false, is_in_piece_with_pressure = false;
+        bool is_beside_pressure = false, is_connected_to_pressure = false;
         for (const LocalIndex c : mesh.face_cells[f])
           if (c != invalid && domain.is_active_cell[c])
             {
               is_beside_pressure = is_beside_pressure || domain.is_pressure_cell[c];
-              is_in_piece_with_pressure =
-                is_in_piece_with_pressure || with_pressure.count(label.local_element(c)) > 0;
+              is_connected_to_pressure =
+                is_connected_to_pressure || with_pressure.count(label.local_element(c)) > 0;
             }
-        result[f] = is_in_piece_with_pressure && !is_beside_pressure;
+        result[f] = is_connected_to_pressure && !is_beside_pressure;
       }
     return result;
   }

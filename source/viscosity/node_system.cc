@@ -12,7 +12,6 @@ namespace treacle
     , owned_nodes(numbering.owned)
     , number(numbering.number)
     , rows(numbering.rows)
-    , slot(domain.mesh.node_position.size(), invalid)
   {
     const Mesh<dim>        &mesh = domain.mesh;
     std::vector<LocalIndex> columns;
@@ -31,83 +30,156 @@ namespace treacle
   }
 
   template <int dim>
-  void
-  NodeSystem<dim>::assemble_node(const Mass                   mass,
-                                 const Stiffness             &stiffness,
-                                 const std::vector<double>   &face_mass,
-                                 const LocalIndex             node,
-                                 std::vector<LocalIndex>     &columns,
-                                 std::vector<Tensor<2, dim>> &blocks,
-                                 Tensor<1, dim>              &wall_force) const
+  struct NodeSystem<dim>::Row
   {
-    const Mesh<dim> &mesh = domain.mesh;
-    columns.assign(1, node);
-    blocks.assign(1, Tensor<2, dim>());
-    wall_force          = 0;
-    slot[node]          = 0;
-    const auto block_of = [&](const LocalIndex other) -> Tensor<2, dim> & {
-      if (slot[other] == invalid)
+    explicit Row(const unsigned int n_nodes)
+      : slot(n_nodes, invalid)
+    {}
+
+    std::vector<LocalIndex>     columns; ///< nodes, that of the row first
+    std::vector<Tensor<2, dim>> blocks;
+    Tensor<1, dim>              wall_force;
+
+    void
+    start(const LocalIndex node)
+    {
+      for (const LocalIndex other : columns)
+        slot[other] = invalid;
+      columns.clear();
+      blocks.clear();
+      wall_force = 0;
+      block(node);
+    }
+
+    Tensor<2, dim> &
+    block(const LocalIndex node)
+    {
+      if (slot[node] == invalid)
         {
-          slot[other] = columns.size();
-          columns.push_back(other);
+          slot[node] = columns.size();
+          columns.push_back(node);
           blocks.emplace_back();
         }
-      return blocks[slot[other]];
+      return blocks[slot[node]];
+    }
+
+  private:
+    std::vector<LocalIndex> slot; ///< node -> place in columns
+  };
+
+  template <int dim>
+  void
+  NodeSystem<dim>::add_stiffness(const Stiffness &stiffness,
+                                 const LocalIndex node,
+                                 const LocalIndex c,
+                                 Row             &row) const
+  {
+    const auto        &nodes    = domain.mesh.cell_nodes[c];
+    const unsigned int i        = std::find(nodes.begin(), nodes.end(), node) - nodes.begin();
+    const double       strain   = stiffness.strain.empty() ? 0 : stiffness.strain[c];
+    const double       gradient = stiffness.gradient.empty() ? 0 : stiffness.gradient[c];
+    const auto         stiff    = [&](const Tensor<1, dim> &g, const Tensor<1, dim> &other) {
+      return (strain + gradient) * (g * other) * Tensor<2, dim>(unit_symmetric_tensor<dim>()) +
+             strain * outer_product(other, g);
     };
-
-    for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+    const auto parts = domain.cut_cells.parts(c);
+    // nodes in solids have rows of their own, for which any scale will do
+    if (parts.size() == 0 || domain.solid_distance[node] <= 0)
       {
-        const LocalIndex c = mesh.node_cells[k];
-        if (!domain.is_active_cell[c])
-          continue;
-        const auto &nodes = mesh.cell_nodes[c];
-        const unsigned int i = std::find(nodes.begin(), nodes.end(), node) - nodes.begin();
-        const double       strain   = stiffness.strain.empty() ? 0 : stiffness.strain[c];
-        const double       gradient = stiffness.gradient.empty() ? 0 : stiffness.gradient[c];
-        const auto         stiff = [&](const Tensor<1, dim> &g, const Tensor<1, dim> &other) {
-          return (strain + gradient) * (g * other) * Tensor<2, dim>(unit_symmetric_tensor<dim>()) +
-                 strain * outer_product(other, g);
-        };
-        const auto parts = domain.cut_cells.parts(c);
-        // nodes in solids have rows of their own, for which any scale will do
-        if (parts.size() == 0 || domain.solid_distance[node] <= 0)
-          {
-            const auto &g = mesh.cell_gradients[c];
-            for (unsigned int j = 0; j <= dim; ++j)
-              block_of(nodes[j]) += stiff(g[i], g[j]);
-          }
-        for (const auto &part : parts)
-          for (unsigned int k = 0; k <= dim; ++k)
-            if (part.vertex[k] == i)
-              for (unsigned int l = 0; l <= dim; ++l)
-                {
-                  const Tensor<2, dim> block =
-                    part.fraction * stiff(part.gradient[k], part.gradient[l]);
-                  if (part.vertex[l] == CutCells<dim>::on_wall)
-                    wall_force -= block * part.velocity[l];
-                  else
-                    block_of(nodes[part.vertex[l]]) += block;
-                }
+        const auto &g = domain.mesh.cell_gradients[c];
+        for (unsigned int j = 0; j <= dim; ++j)
+          row.block(nodes[j]) += stiff(g[i], g[j]);
       }
+    for (const auto &part : parts)
+      for (unsigned int k = 0; k <= dim; ++k)
+        if (part.vertex[k] == i)
+          for (unsigned int l = 0; l <= dim; ++l)
+            {
+              const Tensor<2, dim> block =
+                part.fraction * stiff(part.gradient[k], part.gradient[l]);
+              if (part.vertex[l] == CutCells<dim>::on_wall)
+                row.wall_force -= block * part.velocity[l];
+              else
+                row.block(nodes[part.vertex[l]]) += block;
+            }
+  }
 
+  template <int dim>
+  void
+  NodeSystem<dim>::add_face_mass(const std::vector<double> &face_mass,
+                                 const LocalIndex           node,
+                                 const LocalIndex           c,
+                                 Row                       &row) const
+  {
+    const Mesh<dim> &mesh = domain.mesh;
+    for (const LocalIndex f : mesh.cell_faces[c])
+      {
+        const auto &nodes = mesh.face_nodes[f];
+        if (!domain.is_liquid_face(f) || mesh.face_cells[f][0] != c ||
+            std::find(nodes.begin(), nodes.end(), node) == nodes.end())
+          continue;
+        const Tensor<1, dim> &n = mesh.face_normal[f];
+        const Tensor<2, dim>  m = face_mass[f] / (dim * dim) * outer_product(n, n);
+        for (const LocalIndex other : nodes)
+          row.block(other) += m;
+      }
+  }
+
+  template <int dim>
+  void
+  NodeSystem<dim>::assemble_row(const Mass                 mass,
+                                const Stiffness           &stiffness,
+                                const std::vector<double> &face_mass,
+                                const LocalIndex           node,
+                                Row                       &row) const
+  {
+    const Mesh<dim> &mesh = domain.mesh;
+    row.start(node);
+    for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+      if (domain.is_active_cell[mesh.node_cells[k]])
+        add_stiffness(stiffness, node, mesh.node_cells[k], row);
     if (mass == Mass::nodes)
       for (unsigned int d = 0; d < dim; ++d)
-        blocks[0][d][d] += domain.node_mass[node];
+        row.blocks[0][d][d] += domain.node_mass[node];
     else if (mass == Mass::faces)
       for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
-        for (const LocalIndex f : mesh.cell_faces[mesh.node_cells[k]])
-          {
-            const auto &nodes = mesh.face_nodes[f];
-            if (!domain.is_liquid_face(f) || mesh.face_cells[f][0] != mesh.node_cells[k] ||
-                std::find(nodes.begin(), nodes.end(), node) == nodes.end())
-              continue;
-            const Tensor<1, dim> &n = mesh.face_normal[f];
-            const Tensor<2, dim>  m = face_mass[f] / (dim * dim) * outer_product(n, n);
-            for (const LocalIndex other : nodes)
-              block_of(other) += m;
-          }
-    for (const LocalIndex other : columns)
-      slot[other] = invalid;
+        add_face_mass(face_mass, node, mesh.node_cells[k], row);
+  }
+
+  template <int dim>
+  void
+  NodeSystem<dim>::insert(const Row         &row,
+                          const unsigned int i,
+                          const bool         decoupled,
+                          Assembled         &result) const
+  {
+    const auto is_constrained = [&](const LocalIndex node, const unsigned int d) {
+      return (domain.constrained[node] >> d & 1) != 0;
+    };
+    const LocalIndex         node = row.columns[0];
+    std::vector<GlobalIndex> indices;
+    std::vector<double>      values;
+    for (unsigned int a = 0; a < dim; ++a)
+      {
+        const GlobalIndex index = dim * number[node] + a;
+        double           &shift = result.shift.local_element(dim * i + a);
+        // 1 for a component that nothing holds, lest the matrix be singular
+        const double diagonal = row.blocks[0][a][a] > 0 ? row.blocks[0][a][a] : 1;
+        indices.assign(1, index);
+        values.assign(1, diagonal);
+        if (!is_constrained(node, a))
+          shift += row.wall_force[a];
+        for (unsigned int k = 0; k < row.columns.size() && !is_constrained(node, a); ++k)
+          for (unsigned int b = decoupled ? a : 0; b < (decoupled ? a + 1 : dim); ++b)
+            if (const LocalIndex other = row.columns[k]; is_constrained(other, b))
+              shift -= row.blocks[k][a][b] * domain.prescribed[other][b];
+            else if (k != 0 || a != b)
+              {
+                indices.push_back(dim * number[other] + b);
+                values.push_back(row.blocks[k][a][b]);
+              }
+        result.matrix->set(index, indices.size(), indices.data(), values.data(), false);
+      }
   }
 
   template <int dim>
@@ -116,47 +188,17 @@ namespace treacle
                             const Stiffness           &stiffness,
                             const std::vector<double> &face_mass) const
   {
-    const Mesh<dim>            &mesh = domain.mesh;
-    Assembled                   result;
-    std::vector<LocalIndex>     columns;
-    std::vector<Tensor<2, dim>> blocks;
-
+    const MPI_Comm &comm = domain.mesh.communicator();
+    Assembled       result;
     result.matrix =
-      std::make_unique<TrilinosWrappers::SparseMatrix>(rows, rows, mesh.communicator(), row_lengths);
-    result.shift.reinit(rows, mesh.communicator());
-
+      std::make_unique<TrilinosWrappers::SparseMatrix>(rows, rows, comm, row_lengths);
+    result.shift.reinit(rows, comm);
     const bool decoupled = mass != Mass::faces && stiffness.strain.empty();
-    const auto is_constrained = [&](const LocalIndex node, const unsigned int d) {
-      return (domain.constrained[node] >> d & 1) != 0;
-    };
-    Tensor<1, dim>           wall_force;
-    std::vector<GlobalIndex> indices;
-    std::vector<double>      values;
+    Row        row(domain.mesh.node_position.size());
     for (unsigned int i = 0; i < owned_nodes.size(); ++i)
       {
-        const LocalIndex node = owned_nodes[i];
-        assemble_node(mass, stiffness, face_mass, node, columns, blocks, wall_force);
-        for (unsigned int a = 0; a < dim; ++a)
-          {
-            const GlobalIndex row = dim * number[node] + a;
-            // 1 for a component that nothing holds, lest the matrix be singular
-            const double diagonal = blocks[0][a][a] > 0 ? blocks[0][a][a] : 1;
-            indices.assign(1, row);
-            values.assign(1, diagonal);
-            if (!is_constrained(node, a))
-              result.shift.local_element(dim * i + a) += wall_force[a];
-            for (unsigned int k = 0; k < columns.size() && !is_constrained(node, a); ++k)
-              for (unsigned int b = decoupled ? a : 0; b < (decoupled ? a + 1 : dim); ++b)
-                if (is_constrained(columns[k], b))
-                  result.shift.local_element(dim * i + a) -=
-                    blocks[k][a][b] * domain.prescribed[columns[k]][b];
-                else if (k != 0 || a != b)
-                  {
-                    indices.push_back(dim * number[columns[k]] + b);
-                    values.push_back(blocks[k][a][b]);
-                  }
-            result.matrix->set(row, indices.size(), indices.data(), values.data(), false);
-          }
+        assemble_row(mass, stiffness, face_mass, owned_nodes[i], row);
+        insert(row, i, decoupled, result);
       }
     result.matrix->compress(VectorOperation::insert);
     return result;

@@ -120,7 +120,7 @@ namespace treacle
 
   template <int dim>
   void
-  Reactions<dim>::add_pressure(const Vector &pressure, const double dt)
+  Reactions<dim>::add_pressure(const Vector &pressure, const double step)
   {
     const Mesh<dim> &mesh = domain.mesh;
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
@@ -130,7 +130,7 @@ namespace treacle
                             (beyond == invalid ? 0. : pressure.local_element(beyond));
         if (domain.open_fraction[f] == 1 || jump == 0)
           continue;
-        const Tensor<1, dim> impulse = -dt * jump * mesh.face_area[f] * mesh.face_normal[f];
+        const Tensor<1, dim> impulse = -step * jump * mesh.face_area[f] * mesh.face_normal[f];
         std::array<Point<dim>, dim> x;
         VertexValues<dim - 1>       held;
         for (unsigned int i = 0; i < dim; ++i)
@@ -154,13 +154,13 @@ namespace treacle
 
   template <int dim>
   std::vector<Load<dim>>
-  Reactions<dim>::loads(const double dt) const
+  Reactions<dim>::loads(const double step) const
   {
     std::vector<Load<dim>> result = sums;
     for (Load<dim> &load : result)
       {
-        load.force  = -Utilities::MPI::sum(load.force, domain.mesh.communicator()) / dt;
-        load.torque = -Utilities::MPI::sum(load.torque, domain.mesh.communicator()) / dt;
+        load.force  = -Utilities::MPI::sum(load.force, domain.mesh.communicator()) / step;
+        load.torque = -Utilities::MPI::sum(load.torque, domain.mesh.communicator()) / step;
       }
     return result;
   }

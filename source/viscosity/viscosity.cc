@@ -39,14 +39,43 @@ namespace treacle
       state.u.update_ghost_values();
       return iterations;
     }
+
+    /// Conjugate gradients at the faces, with the diagonal or nothing.
+    template <int dim>
+    unsigned int
+    solve_faces(const FaceCoupled<dim> &face_coupled, LinearSolver::Parameters prm, Vector &u)
+    {
+      LinearSolver::Operator preconditioner = [](Vector &z, const Vector &r) { z = r; };
+      if (prm.preconditioner != LinearSolver::Preconditioner::none)
+        {
+          prm.preconditioner = LinearSolver::Preconditioner::jacobi;
+          preconditioner = [d = face_coupled.inverse_diagonal()](Vector &z, const Vector &r) {
+            z = r;
+            z.scale(d);
+          };
+        }
+      const auto matrix = [&](Vector &y, const Vector &x) { face_coupled.vmult(y, x); };
+      const Vector b    = face_coupled.right_hand_side(u);
+      return LinearSolver(prm, "Viscosity", matrix, preconditioner).solve(u, b);
+    }
   } // namespace
+
+  template <int dim>
+  const Choice<typename Viscosity<dim>::Mapping> Viscosity<dim>::mappings{
+    {"face coupled", Mapping::face_coupled},
+    {"face fitted FLIP", Mapping::face_fitted_flip},
+    {"face fitted PIC", Mapping::face_fitted_pic},
+    {"hybrid", Mapping::hybrid},
+    {"node FLIP", Mapping::node_flip},
+    {"node PIC", Mapping::node_pic}};
 
   template <int dim>
   void
   Viscosity<dim>::Parameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Viscosity");
-    prm.add_parameter(
+    add_choice(
+      prm,
       "Mapping",
       mapping,
       "How viscosity is carried between face and node velocity: by a fit of the "
@@ -55,23 +84,21 @@ namespace treacle
       "coupled: the least squares are part of the implicit system, whose unknowns "
       "are the faces. Hybrid: the nodes drag the faces along in one implicit system, exact for "
       "rigid motions too.",
-      Patterns::Selection(
-        "face coupled|face fitted FLIP|face fitted PIC|hybrid|node FLIP|node PIC"));
-    prm.add_parameter("Stress model",
-                      stress_model,
-                      "Full: the stress mu (grad u + grad u^T). Laplacian: div(mu grad u) for "
-                      "each component, which damps rotation where the liquid is free; for comparison.",
-                      Patterns::Selection("full|laplacian"));
-    prm.add_parameter("Solid walls",
-                      solid_walls,
-                      "Where solids hold the liquid: at their walls, which cut cells, or at the nodes "
-                      "inside them, to first order.",
-                      Patterns::Selection("cut cells|nodes"));
-    prm.add_parameter("Element weighting",
-                      element_weighting,
-                      "Whether the stiffness of a cell that the surface cuts is scaled by its "
-                      "liquid fraction or kept whole.",
-                      Patterns::Selection("liquid fraction|full"));
+      mappings);
+    add_choice<StressModel>(
+      prm,
+      "Stress model",
+      stress_model,
+      "Full: the stress mu (grad u + grad u^T). Laplacian: div(mu grad u) for "
+      "each component, which damps rotation where the liquid is free; for comparison.",
+      {{"full", StressModel::full}, {"laplacian", StressModel::laplacian}});
+    add_choice<ElementWeighting>(prm,
+                                 "Element weighting",
+                                 element_weighting,
+                                 "Whether the stiffness of a cell that the surface cuts is scaled "
+                                 "by its liquid fraction or kept whole.",
+                                 {{"liquid fraction", ElementWeighting::liquid_fraction},
+                                  {"full", ElementWeighting::full}});
     prm.leave_subsection();
     solver.add_parameters(prm,
                           "Viscosity",
@@ -83,27 +110,35 @@ namespace treacle
   unsigned int
   Viscosity<dim>::advance(State<dim>         &state,
                           const FaceFit<dim> &fit,
-                          const double        dt,
+                          const double        step,
                           Reactions<dim>     *reactions) const
   {
-    return prm.mapping == "hybrid"           ? advance_hybrid(state, fit, dt, reactions) :
-           prm.mapping == "face coupled"     ? advance_face_coupled(state, fit, dt, reactions) :
-           prm.mapping.rfind("node", 0) == 0 ? advance_nodes(state, fit, dt, reactions) :
-                                               advance_face_fitted(state, fit, dt, reactions);
+    switch (prm.mapping)
+      {
+        case Mapping::hybrid:
+          return advance_hybrid(state, fit, step, reactions);
+        case Mapping::face_coupled:
+          return advance_face_coupled(state, fit, step, reactions);
+        case Mapping::node_flip:
+        case Mapping::node_pic:
+          return advance_nodes(state, fit, step, reactions);
+        default:
+          return advance_face_fitted(state, fit, step, reactions);
+      }
   }
 
   template <int dim>
   typename NodeSystem<dim>::Stiffness
-  Viscosity<dim>::stiffness(const LiquidDomain<dim> &domain, const double dt) const
+  Viscosity<dim>::stiffness(const LiquidDomain<dim> &domain, const double step) const
   {
-    const bool                          whole = prm.element_weighting == "full";
+    const bool                          whole = prm.element_weighting == ElementWeighting::full;
     typename NodeSystem<dim>::Stiffness result;
-    std::vector<double> &weight = prm.stress_model == "full" ? result.strain : result.gradient;
+    std::vector<double> &weight = prm.stress_model == StressModel::full ? result.strain : result.gradient;
     weight.resize(domain.viscosity.size());
     for (LocalIndex c = 0; c < weight.size(); ++c)
       if (domain.liquid_volume[c] > 0)
         weight[c] =
-          dt * domain.viscosity[c] * (whole ? domain.open_volume(c) : domain.liquid_volume[c]);
+          step * domain.viscosity[c] * (whole ? domain.open_volume(c) : domain.liquid_volume[c]);
     return result;
   }
 
@@ -111,11 +146,11 @@ namespace treacle
   unsigned int
   Viscosity<dim>::advance_face_fitted(State<dim>         &state,
                                       const FaceFit<dim> &fit,
-                                      const double        dt,
+                                      const double        step,
                                       Reactions<dim>     *reactions) const
   {
     const LiquidDomain<dim> &domain = fit.domain;
-    const bool               flip   = prm.mapping == "face fitted FLIP";
+    const bool               flip   = prm.mapping == Mapping::face_fitted_flip;
     if (flip)
       fit.solve(state.u, state.v);
     const Vector          old_u = state.u;
@@ -123,7 +158,7 @@ namespace treacle
     old_u.update_ghost_values();
     old_v.update_ghost_values();
 
-    auto stiffness = this->stiffness(domain, dt);
+    auto stiffness = this->stiffness(domain, step);
     stiffness.strain.resize(domain.viscosity.size());
     for (LocalIndex c = 0; c < stiffness.strain.size(); ++c)
       stiffness.strain[c] += fit.regularization()[c];
@@ -149,11 +184,11 @@ namespace treacle
   unsigned int
   Viscosity<dim>::advance_hybrid(State<dim>         &state,
                                  const FaceFit<dim> &fit,
-                                 const double        dt,
+                                 const double        step,
                                  Reactions<dim>     *reactions) const
   {
-    const auto         stiffness = this->stiffness(fit.domain, dt);
-    const Hybrid<dim>  hybrid(fit.system, stiffness, dt, Hybrid<dim>::Faces::all);
+    const auto         stiffness = this->stiffness(fit.domain, step);
+    const Hybrid<dim>  hybrid(fit.system, stiffness, step, Hybrid<dim>::Faces::all);
     const LinearSolver solver(prm.solver,
                               "Viscosity",
                               *hybrid.stiff.matrix,
@@ -169,7 +204,7 @@ namespace treacle
   unsigned int
   Viscosity<dim>::advance_nodes(State<dim>         &state,
                                 const FaceFit<dim> &fit,
-                                const double        dt,
+                                const double        step,
                                 Reactions<dim>     *reactions) const
   {
     const LiquidDomain<dim> &domain = fit.domain;
@@ -178,14 +213,14 @@ namespace treacle
     for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
       momentum[node] = domain.node_mass[node] * state.v.value(node);
 
-    const auto         stiffness = this->stiffness(domain, dt);
+    const auto         stiffness = this->stiffness(domain, step);
     const unsigned int iterations =
       solve(state,
             fit.system,
             fit.system.assemble(NodeSystem<dim>::Mass::nodes, stiffness),
             fit.system.stress_free_motions(stiffness),
             momentum,
-            prm.mapping == "node FLIP",
+            prm.mapping == Mapping::node_flip,
             prm.solver);
     if (reactions != nullptr)
       reactions->add_stress(stiffness, state.v);
@@ -196,38 +231,21 @@ namespace treacle
   unsigned int
   Viscosity<dim>::advance_face_coupled(State<dim>         &state,
                                        const FaceFit<dim> &fit,
-                                       const double        dt,
+                                       const double        step,
                                        Reactions<dim>     *reactions) const
   {
     const LiquidDomain<dim> &domain    = fit.domain;
-    const auto               stiffness = this->stiffness(domain, dt);
+    const auto               stiffness = this->stiffness(domain, step);
     const FaceCoupled<dim>   face_coupled(fit.system, stiffness);
-    const auto               matrix = [&](Vector &y, const Vector &x) { face_coupled.vmult(y, x); };
-
-    LinearSolver::Parameters parameters = prm.solver;
-    LinearSolver::Operator   preconditioner = [](Vector &z, const Vector &r) { z = r; };
-    if (parameters.preconditioner != "none")
-      {
-        parameters.preconditioner = "jacobi";
-        preconditioner = [d = face_coupled.inverse_diagonal()](Vector &z, const Vector &r) {
-          z = r;
-          z.scale(d);
-        };
-      }
 
     Vector u = domain.mesh.zeros(domain.mesh.faces);
     for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
       if (domain.is_liquid_face(f))
         u.local_element(f) = state.u.local_element(f);
-    unsigned int iterations = 0;
-    if (prm.solver.preconditioner == "amg")
-      iterations = AuxiliarySpace<dim>(face_coupled, stiffness, prm.solver).solve(u);
-    else
-      {
-        const Vector b = face_coupled.right_hand_side(u);
-        iterations =
-          LinearSolver(parameters, "Viscosity", matrix, preconditioner).solve(u, b);
-      }
+    const unsigned int iterations =
+      prm.solver.preconditioner == LinearSolver::Preconditioner::amg ?
+        AuxiliarySpace<dim>(face_coupled, stiffness, prm.solver).solve(u) :
+        solve_faces(face_coupled, prm.solver, u);
 
     for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
       if (domain.is_liquid_face(f))

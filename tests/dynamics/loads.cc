@@ -11,8 +11,8 @@
 
 #include <iomanip>
 
-using namespace tests;
-
+namespace tests::loads_test
+{
 namespace
 {
   /// Text of a point of the box.
@@ -173,12 +173,14 @@ namespace
   }
 } // namespace
 
-int
-main(int argc, char **argv)
+void
+start(const int, char **)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   on_1_2_3_ranks([](const MPI_Comm &comm) {
     check<2>(comm);
     check<3>(comm);
   });
 }
+
+const Test test("dynamics/loads", start);
+} // namespace tests::loads_test

@@ -10,8 +10,8 @@
 
 #include <iomanip>
 
-using namespace tests;
-
+namespace tests::reconstruction_test
+{
 namespace
 {
   template <int dim>
@@ -80,10 +80,9 @@ namespace
   }
 } // namespace
 
-int
-main(int argc, char **argv)
+void
+start(const int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   std::vector<unsigned int>        levels;
   for (int i = 2; i < argc; ++i)
     levels.push_back(std::stoi(argv[i]));
@@ -97,3 +96,6 @@ main(int argc, char **argv)
       check_all<3>(comm, {3, 4});
     });
 }
+
+const Test test("dynamics/reconstruction", start);
+} // namespace tests::reconstruction_test

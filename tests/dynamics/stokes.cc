@@ -10,8 +10,8 @@
 #include "../tests.h"
 #include "../run_scene.h"
 
-using namespace tests;
-
+namespace tests::stokes_test
+{
 namespace
 {
   const std::string coupled =
@@ -171,13 +171,15 @@ namespace
   }
 } // namespace
 
-int
-main(int argc, char **argv)
+void
+start(const int, char **)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   out().precision(4);
   on_1_2_3_ranks([](const MPI_Comm &comm) {
     check<2>(comm);
     check<3>(comm);
   });
 }
+
+const Test test("dynamics/stokes", start);
+} // namespace tests::stokes_test

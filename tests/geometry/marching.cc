@@ -10,6 +10,8 @@
 
 #include "../tests.h"
 
+namespace tests::marching_test
+{
 using namespace treacle;
 
 template <int dim>
@@ -110,13 +112,15 @@ list_patterns()
     }
 }
 
-int
-main(int argc, char *argv[])
+void
+start(const int, char **)
 {
-  const Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
 
   check_closure<2>();
   list_patterns<2>();
   check_closure<3>();
   list_patterns<3>();
 }
+
+const Test test("geometry/marching", start);
+} // namespace tests::marching_test

@@ -9,6 +9,8 @@
 
 #include "../tests.h"
 
+namespace tests::motion_test
+{
 using namespace treacle;
 
 template <int dim>
@@ -64,10 +66,9 @@ show_error(const Parameters<dim> &prm)
     }
 }
 
-int
-main(int argc, char **argv)
+void
+start(const int, char **)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   compare<2>("2D",
              {{0.1, 0.2}, "0.5*t^2; sin(t)", "0.3*t^2", "0; 0", "0"},
              {{0.1, 0.2}, "0; 0", "0", "t; cos(t)", "0.6*t"});
@@ -91,3 +92,6 @@ main(int argc, char **argv)
   show_error<2>({{}, "0; 0", "log(-t)", "0; 0", "0"});
   show_error<3>({{}, "0; 0; 0", "1", "0; 0; 0", "0; 0; 0"});
 }
+
+const Test test("geometry/motion", start);
+} // namespace tests::motion_test

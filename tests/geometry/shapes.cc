@@ -12,6 +12,8 @@
 
 #include "../tests.h"
 
+namespace tests::shapes_test
+{
 using namespace treacle;
 
 template <int dim>
@@ -165,10 +167,9 @@ check_errors()
     show_error<dim>(text);
 }
 
-int
-main(int argc, char *argv[])
+void
+start(const int, char **)
 {
-  const Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
 
   tests::out() << "dimension 2" << std::endl;
   const std::vector<Point<2>> p2 = {{0.5, 0.5}, {0.9, 0.9}, {0.5, 0.1}, {0.35, 0.6}};
@@ -199,3 +200,6 @@ main(int argc, char *argv[])
   check_triangle_mesh();
   check_errors<3>();
 }
+
+const Test test("geometry/shapes", start);
+} // namespace tests::shapes_test

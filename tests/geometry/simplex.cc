@@ -10,6 +10,8 @@
 
 #include "../tests.h"
 
+namespace tests::simplex_test
+{
 using namespace treacle;
 
 std::mt19937 generator(1);
@@ -244,10 +246,9 @@ check()
   check_areas<dim>();
 }
 
-int
-main(int argc, char *argv[])
+void
+start(const int, char **)
 {
-  const Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
 
   check<2>();
   check<3>();
@@ -275,3 +276,6 @@ main(int argc, char *argv[])
     out << negative_fraction<3>(phi) << ' ';
   out << std::endl;
 }
+
+const Test test("geometry/simplex", start);
+} // namespace tests::simplex_test

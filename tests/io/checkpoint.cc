@@ -12,6 +12,8 @@
 #include "../tests.h"
 #include "ball.h"
 
+namespace tests::checkpoint_test
+{
 using namespace treacle;
 
 template <int dim>
@@ -139,10 +141,9 @@ check_errors(const MPI_Comm &comm)
   refuse<2>(comm, tests::ball_mesh<2>());
 }
 
-int
-main(int argc, char **argv)
+void
+start(const int, char **)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
   MPI_Comm  two;
   MPI_Comm_split(MPI_COMM_WORLD, rank < 2 ? 0 : 1, rank, &two);
@@ -160,3 +161,6 @@ main(int argc, char **argv)
   if (rank == 0)
     check_errors(MPI_COMM_SELF);
 }
+
+const Test test("io/checkpoint", start);
+} // namespace tests::checkpoint_test

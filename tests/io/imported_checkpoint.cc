@@ -10,6 +10,8 @@
 #include "../mesh_files.h"
 #include "../tests.h"
 
+namespace tests::imported_checkpoint_test
+{
 using namespace treacle;
 
 template <int dim>
@@ -70,10 +72,9 @@ write(const MPI_Comm &comm)
   checkpoint<dim>(comm).write(make_state<dim>(comm), {3, {}});
 }
 
-int
-main(int argc, char **argv)
+void
+start(const int, char **)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
   if (rank == 0)
     {
@@ -107,3 +108,6 @@ main(int argc, char **argv)
         }
     }
 }
+
+const Test test("io/imported_checkpoint", start);
+} // namespace tests::imported_checkpoint_test

@@ -8,9 +8,12 @@
 
 #include <sstream>
 
+#include "../liquid.h"
 #include "../tests.h"
 #include "ball.h"
 
+namespace tests::statistics_test
+{
 using namespace treacle;
 
 void
@@ -45,7 +48,7 @@ check(const MPI_Comm &comm, const bool with_names)
 
   Statistics<dim> statistics(comm, ".");
   for (unsigned int step = 0; step < 4; ++step, state.time += info.dt, ++state.step)
-    statistics.add_row(state, LiquidDomain<dim>(state, scene, 0.01), info);
+    statistics.add_row(state, tests::WhereLiquidIs<dim>(state, scene).domain, info);
   if (is_first && with_names)
     show_file(name, false);
   for (const char *axis : {" x", " y", " z"})
@@ -86,13 +89,13 @@ check(const MPI_Comm &comm, const bool with_names)
   MPI_Barrier(comm);
   Statistics<dim> resumed(comm, ".");
   state.step = 2;
-  resumed.resume(state, LiquidDomain<dim>(state, scene, 0.01));
+  resumed.resume(state, tests::WhereLiquidIs<dim>(state, scene).domain);
   state.phi.add(0.01);
   state.phi.update_ghost_values();
   state.time   = 10;
   state.step   = 3;
   info.rebuilt = false;
-  resumed.add_row(state, LiquidDomain<dim>(state, scene, 0.01), info);
+  resumed.add_row(state, tests::WhereLiquidIs<dim>(state, scene).domain, info);
   if (is_first)
     show_file(name, true);
   tests::out() << "drift " << resumed.last("Volume drift") << ", rebuilds "
@@ -101,18 +104,20 @@ check(const MPI_Comm &comm, const bool with_names)
   // without liquid
   state.phi = 1.;
   state.phi.update_ghost_values();
-  resumed.add_row(state, LiquidDomain<dim>(state, scene, 0.01), info);
+  resumed.add_row(state, tests::WhereLiquidIs<dim>(state, scene).domain, info);
   tests::out() << "no liquid: " << resumed.last("Liquid minimum x (m)") << ' '
                << resumed.last("Kinetic energy (J)") << std::endl;
 }
 
-int
-main(int argc, char **argv)
+void
+start(const int, char **)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   tests::on_1_2_3_ranks([](const MPI_Comm &comm) {
     const bool with_names = Utilities::MPI::n_mpi_processes(comm) == 1;
     check<2>(comm, with_names);
     check<3>(comm, with_names);
   });
 }
+
+const Test test("io/statistics", start);
+} // namespace tests::statistics_test

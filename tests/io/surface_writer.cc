@@ -11,9 +11,12 @@
 #include <map>
 #include <sstream>
 
+#include "../liquid.h"
 #include "../tests.h"
 #include "ball.h"
 
+namespace tests::surface_writer_test
+{
 using namespace treacle;
 
 std::string
@@ -173,7 +176,7 @@ check_cut(const MPI_Comm &comm, const double offset, const bool is_tilted)
   solid.centre = diagonal_point<dim>(0.5) - offset * normal;
   const Scene<dim> scene(parameters);
   const State<dim> state = tests::ball_state<dim>(comm);
-  SurfaceWriter<dim>({"ply"}).write(state, LiquidDomain<dim>(state, scene, 0.01), "out", 1);
+  SurfaceWriter<dim>({"ply"}).write(state, tests::WhereLiquidIs<dim>(state, scene).domain, "out", 1);
   if (Utilities::MPI::this_mpi_process(comm) > 0)
     return;
   const std::string bytes = read("out/frames/surface_00001.ply");
@@ -193,9 +196,9 @@ check(const MPI_Comm &comm)
   static std::string of_one_rank;
   State<dim>         state = tests::ball_state<dim>(comm);
   const Scene<dim>   scene(tests::ball_scene<dim>());
-  const LiquidDomain<dim> domain(state, scene, 0.01);
+  const tests::WhereLiquidIs<dim> liquid(state, scene);
   for (const char *format : {"obj", "vtp", "none", "ply"})
-    SurfaceWriter<dim>({format}).write(state, domain, "out", dim);
+    SurfaceWriter<dim>({format}).write(state, liquid.domain, "out", dim);
   const std::string name = "out/frames/surface_0000" + std::to_string(dim);
   if (Utilities::MPI::this_mpi_process(comm) == 0)
     {
@@ -211,17 +214,16 @@ check(const MPI_Comm &comm)
     }
   state.phi = 1;
   state.phi.update_ghost_values();
-  SurfaceWriter<dim>({"ply"}).write(state, domain, "out", 0);
+  SurfaceWriter<dim>({"ply"}).write(state, tests::WhereLiquidIs<dim>(state, scene).domain, "out", 0);
   if (Utilities::MPI::this_mpi_process(comm) == 0)
     tests::out() << "empty: "
                  << read_ply<dim>(read("out/frames/surface_00000.ply")).facets.size()
                  << std::endl;
 }
 
-int
-main(int argc, char **argv)
+void
+start(const int, char **)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   tests::on_1_2_3_ranks([](const MPI_Comm &comm) {
     check<2>(comm);
     check<3>(comm);
@@ -233,3 +235,6 @@ main(int argc, char **argv)
         }
   });
 }
+
+const Test test("io/surface_writer", start);
+} // namespace tests::surface_writer_test

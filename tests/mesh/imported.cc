@@ -10,6 +10,8 @@
 #include "../tests.h"
 #include "../mesh_files.h"
 
+namespace tests::imported_test
+{
 using namespace treacle;
 
 template <int dim>
@@ -70,9 +72,9 @@ check_points(const Mesh<dim> &mesh, const bool is_box)
     field.local_element(node) = linear(mesh.node_position[node]);
   field.update_ghost_values();
 
-  const std::vector<Point<dim>> moved  = Locator<dim>(mesh).clamped(x);
+  const std::vector<Point<dim>> moved  = mesh.locator().clamped(x);
   const std::vector<double>     values = Tracer<dim>(mesh).evaluate(x, {{&field}});
-  const auto                    owners = Locator<dim>(mesh).owners(x);
+  const auto                    owners = mesh.locator().owners(x);
   double                        error = 0, distance = 0, difference = 0;
   unsigned int                  n_moved = 0;
   for (unsigned int i = 0; i < x.size(); ++i)
@@ -110,10 +112,9 @@ check(const MPI_Comm    &comm,
   check_points(mesh, !squeezed);
 }
 
-int
-main(int argc, char **argv)
+void
+start(const int, char **)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   tests::on_1_2_3_ranks([](const MPI_Comm &comm) {
     check<2>(comm, "box", 8, false, 0);
     check<2>(comm, "jittered", 8, false, 0.2);
@@ -123,3 +124,6 @@ main(int argc, char **argv)
     check<3>(comm, "squeezed", 5, true, 0);
   });
 }
+
+const Test test("mesh/imported", start);
+} // namespace tests::imported_test

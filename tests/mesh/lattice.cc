@@ -13,6 +13,8 @@
 
 #include <random>
 
+namespace tests::lattice_test
+{
 using namespace treacle;
 
 template <int dim>
@@ -121,10 +123,9 @@ check(const MPI_Comm &comm, const int seed, const unsigned int level)
                << std::endl;
 }
 
-int
-main(int argc, char **argv)
+void
+start(const int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const unsigned int level = argc > 1 ? std::stoi(argv[1]) : 4;
   tests::on_1_2_3_ranks([&](const MPI_Comm &comm) {
     for (int seed = 0; seed <= (level > 4 ? 10 : 3); ++seed)
@@ -134,3 +135,6 @@ main(int argc, char **argv)
       }
   });
 }
+
+const Test test("mesh/lattice", start);
+} // namespace tests::lattice_test

@@ -11,6 +11,8 @@
 
 #include <random>
 
+namespace tests::tracer_test
+{
 using namespace treacle;
 
 template <int dim>
@@ -107,12 +109,14 @@ check(const MPI_Comm &comm)
                << std::endl;
 }
 
-int
-main(int argc, char **argv)
+void
+start(const int, char **)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   tests::on_1_2_3_ranks([](const MPI_Comm &comm) {
     check<2>(comm);
     check<3>(comm);
   });
 }
+
+const Test test("mesh/tracer", start);
+} // namespace tests::tracer_test

@@ -8,8 +8,8 @@
 #include "../tests.h"
 #include "../run_scene.h"
 
-using namespace tests;
-
+namespace tests::still_water_test
+{
 template <int dim>
 void
 check(const MPI_Comm &comm, const bool tilted, const unsigned int n_steps, const unsigned int level)
@@ -55,10 +55,9 @@ check(const MPI_Comm &comm, const bool tilted, const unsigned int n_steps, const
         << " sqrt(g h)" << std::endl;
 }
 
-int
-main(int argc, char **argv)
+void
+start(const int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const unsigned int n_steps = argc > 1 ? std::stoi(argv[1]) : 3;
   const unsigned int level   = argc > 2 ? std::stoi(argv[2]) : 3;
   on_1_2_3_ranks([&](const MPI_Comm &comm) {
@@ -69,3 +68,6 @@ main(int argc, char **argv)
       }
   });
 }
+
+const Test test("pressure/still_water", start);
+} // namespace tests::still_water_test

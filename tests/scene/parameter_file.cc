@@ -9,6 +9,8 @@
 
 #include "../tests.h"
 
+namespace tests::parameter_file_test
+{
 using namespace treacle;
 
 void
@@ -57,10 +59,9 @@ check(const std::string &text, const std::vector<std::string> &settings = {})
     }
 }
 
-int
-main(int argc, char **argv)
+void
+start(const int, char **)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
 
   check(
     "set Dimension = 2 # flat\nsubsection Liquid 1\nend\nsubsection Liquid 2\nend\nsubsection Solid 1\nend",
@@ -99,3 +100,6 @@ main(int argc, char **argv)
       tests::out() << error.what() << std::endl;
     }
 }
+
+const Test test("scene/parameter_file", start);
+} // namespace tests::parameter_file_test

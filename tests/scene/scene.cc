@@ -8,6 +8,8 @@
 
 #include "../tests.h"
 
+namespace tests::scene_test
+{
 using namespace treacle;
 
 template <int dim>
@@ -107,10 +109,9 @@ show_rich_scene()
     }
 }
 
-int
-main(int argc, char *argv[])
+void
+start(const int, char **)
 {
-  const Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
 
   show_defaults<2>();
   show_defaults<3>();
@@ -145,3 +146,6 @@ main(int argc, char *argv[])
   show_error<3>(in("Material", "Viscosity ="));
   show_error<3>("", 0);
 }
+
+const Test test("scene/scene", start);
+} // namespace tests::scene_test

@@ -7,8 +7,8 @@
 #include "../run_scene.h"
 #include "../tests.h"
 
-using namespace tests;
-
+namespace tests::figures_test
+{
 template <int dim>
 void
 check(const MPI_Comm &comm, const std::string &liquid, const std::string &mapping)
@@ -35,10 +35,9 @@ check(const MPI_Comm &comm, const std::string &liquid, const std::string &mappin
         << std::endl;
 }
 
-int
-main(int argc, char **argv)
+void
+start(const int, char **)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   on_1_2_3_ranks([&](const MPI_Comm &comm) {
     for (const char *mapping : {"face fitted FLIP", "face fitted PIC", "node FLIP", "node PIC"})
       check<2>(comm,
@@ -51,3 +50,6 @@ main(int argc, char **argv)
              "face fitted FLIP");
   });
 }
+
+const Test test("scenes/figures", start);
+} // namespace tests::figures_test

@@ -10,8 +10,8 @@
 #include "../tests.h"
 #include "../body.h"
 
-using namespace tests;
-
+namespace tests::imported_test
+{
 template <int dim>
 std::string
 write_mesh(const MPI_Comm &comm, const unsigned int n, const bool squeezed)
@@ -87,10 +87,9 @@ check_rotation(const MPI_Comm &comm, const unsigned int n, const std::string &ma
         << (loss.angular_momentum < 1e-10 && loss.kinetic_energy < 1e-10 ? "kept" : "LOST") << std::endl;
 }
 
-int
-main(int argc, char **argv)
+void
+start(const int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const unsigned int n = argc > 1 ? std::stoi(argv[1]) : 0;
   on_1_2_3_ranks([&](const MPI_Comm &comm) {
     const unsigned int n2 = n ? n : 16, n3 = n ? n : 6;
@@ -108,3 +107,6 @@ main(int argc, char **argv)
       }
   });
 }
+
+const Test test("scenes/imported", start);
+} // namespace tests::imported_test

@@ -9,8 +9,8 @@
 #include "../tests.h"
 #include "../run_scene.h"
 
-using namespace tests;
-
+namespace tests::moving_solids_test
+{
 double
 relative_error(const MPI_Comm &comm, const unsigned int level, const std::string &motion)
 {
@@ -36,10 +36,9 @@ relative_error(const MPI_Comm &comm, const unsigned int level, const std::string
   return rows.back().at("Angular momentum (kg m^2/s)") / exact - 1;
 }
 
-int
-main(int argc, char **argv)
+void
+start(const int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const unsigned int level = argc > 1 ? std::stoi(argv[1]) : 4;
   on_1_2_3_ranks([&](const MPI_Comm &comm) {
     for (const std::string motion : {"set Angular velocity = 4", "set Rotation = 4*t"})
@@ -52,3 +51,6 @@ main(int argc, char **argv)
       }
   });
 }
+
+const Test test("scenes/moving_solids", start);
+} // namespace tests::moving_solids_test

@@ -7,8 +7,8 @@
 #include "../run_scene.h"
 #include "../tests.h"
 
-using namespace tests;
-
+namespace tests::switches_test
+{
 namespace
 {
   std::string
@@ -81,12 +81,14 @@ check(const MPI_Comm &comm)
   check<dim>(comm, "ball", ball, "Viscosity, Pressure");
 }
 
-int
-main(int argc, char **argv)
+void
+start(const int, char **)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   on_1_2_3_ranks([](const MPI_Comm &comm) {
     check<2>(comm);
     check<3>(comm);
   });
 }
+
+const Test test("scenes/switches", start);
+} // namespace tests::switches_test

@@ -7,6 +7,7 @@
 // order in the leaf.
 // Argument: level.
 
+#include "../liquid.h"
 #include "../tests.h"
 #include "../run_scene.h"
 
@@ -14,8 +15,8 @@
 #include <treacle/transport/advection.h>
 #include <treacle/transport/remesh.h>
 
-using namespace tests;
-
+namespace tests::emission_test
+{
 std::string
 mesh_section(const unsigned int level, const unsigned int interior_level = 3)
 {
@@ -98,7 +99,7 @@ carry(const MPI_Comm &comm, const unsigned int level)
     state->phi.local_element(node) = scene.liquid_distance(state->mesh->node_position[node]);
   state->phi.update_ghost_values();
   set_initial_material(*state, scene);
-  extend_material(*state, 6);
+  extend_material(*state, MeshData<dim>(*state->mesh, scene), 6);
   const unsigned int n_steps = 10;
   Tensor<1, dim>     travelled;
   for (unsigned int step = 0; step < n_steps; ++step)
@@ -111,17 +112,20 @@ carry(const MPI_Comm &comm, const unsigned int level)
           state->v.set(node, v);
         }
       state->v.update_ghost_values();
-      const LiquidDomain<dim> domain(*state, scene, 0.01);
-      const Advection<dim>    advection(prm.advection, *state, domain, 0.02);
-      const auto mesh = mesh_for_next_surface(*state, scene, advection, {}, 0.02);
+      const WhereLiquidIs<dim>          liquid(*state, scene);
+      const SurfaceGeometry<dim> surface(state->mesh, state->phi);
+      const Advection<dim>       advection(
+        prm.transport.advection, *state, liquid.domain, surface, BackwardDifference(0.02, *state));
+      const auto mesh = mesh_for_next_surface(*state, scene, surface, advection, {}, 0.02);
       auto next = std::make_unique<State<dim>>(advection.advance(mesh, 0.3));
-      extend_material(*next, 6);
+      extend_material(*next, MeshData<dim>(*mesh, scene), 6);
       state = std::move(next);
     }
   travelled[0] = 0.02 * n_steps;
   travelled[1] = 0.01 * n_steps;
 
-  const LiquidDomain<dim> domain(*state, scene, 0.01);
+  const WhereLiquidIs<dim>        liquid(*state, scene);
+  const LiquidDomain<dim> &domain = liquid.domain;
   double mean = 0, largest = 0, total = 0;
   for (LocalIndex c = 0; c < domain.mesh.n_owned_cells(); ++c)
     if (domain.liquid_volume[c] > 0)
@@ -141,10 +145,9 @@ carry(const MPI_Comm &comm, const unsigned int level)
         << ", mean error over the jump " << std::setprecision(2) << mean << std::endl;
 }
 
-int
-main(int argc, char **argv)
+void
+start(const int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const unsigned int level = argc > 1 ? std::stoi(argv[1]) : 4;
   on_1_2_3_ranks([&](const MPI_Comm &comm) {
     for (const bool at_ceiling : {true, false})
@@ -157,3 +160,6 @@ main(int argc, char **argv)
     carry<3>(comm, level);
   });
 }
+
+const Test test("surface/emission", start);
+} // namespace tests::emission_test

@@ -13,8 +13,8 @@
 #include <treacle/transport/advection.h>
 #include <treacle/transport/remesh.h>
 
-using namespace tests;
-
+namespace tests::markers_test
+{
 /// A body, and a velocity that brings it back after a period.
 template <int dim>
 struct Case
@@ -83,6 +83,7 @@ carry(const MPI_Comm                                  &comm,
                  "set Shape = expression\nset Expression = " +
                  test.body + "\nend\n",
                0);
+  prm.liquid_domain.minimum_theta = 0.01;
   const Scene<dim> scene(prm.scene);
   prm.mesh.lower_corner = scene.lower_corner();
   prm.mesh.upper_corner = scene.upper_corner();
@@ -99,8 +100,10 @@ carry(const MPI_Comm                                  &comm,
   };
   state->phi = exact(*state->mesh);
   redistance(*state, reach);
-  tracking.reseed(*state, scene);
-  const double volume = liquid_volume(*state->mesh, state->phi, scene, state->time);
+  auto         data    = std::make_shared<const MeshData<dim>>(*state->mesh, scene);
+  auto         surface = std::make_unique<const SurfaceGeometry<dim>>(state->mesh, state->phi);
+  const double volume  = liquid_volume(*data, state->phi, state->time);
+  tracking.reseed(*state, scene, *surface);
 
   Errors             errors{0, 0, 0, 0, 0, 0};
   const unsigned int n =
@@ -112,15 +115,18 @@ carry(const MPI_Comm                                  &comm,
       for (LocalIndex node = 0; node < state->mesh->n_owned_nodes(); ++node)
         state->v.set(node, test.velocity(state->mesh->node_position[node], state->time + 0.5 * dt));
       state->v.update_ghost_values();
-      const LiquidDomain<dim> domain(*state, scene, 0.01);
-      const Advection<dim>    advection(prm.advection, *state, domain, dt);
-      const auto              markers = advection.move_markers();
-      const auto              mesh    = mesh_for_next_surface(*state, scene, advection, markers, dt);
+      const LiquidDomain<dim> domain(prm.liquid_domain, *state, *data);
+      const Advection<dim>    advection(
+        prm.transport.advection, *state, domain, *surface, BackwardDifference(dt, *state));
+      const auto markers = advection.move_markers();
+      const auto mesh = mesh_for_next_surface(*state, scene, *surface, advection, markers, dt);
       errors.rebuilt += mesh != state->mesh;
-      State<dim> next = advection.advance(mesh, reach);
-      next.markers    = to_owners(*mesh, markers);
-      tracking.advance(next, scene, reach, volume);
-      state = std::make_unique<State<dim>>(std::move(next));
+      auto next     = std::make_unique<State<dim>>(advection.advance(mesh, reach));
+      next->markers = to_owners(*mesh, markers);
+      if (mesh != state->mesh)
+        data = std::make_shared<const MeshData<dim>>(*mesh, scene);
+      surface = tracking.advance(*next, *data, reach, volume);
+      state   = std::move(next);
     }
   errors.seconds = timer.wall_time() / errors.steps;
   const Mesh<dim> &mesh = *state->mesh;
@@ -132,7 +138,7 @@ carry(const MPI_Comm                                  &comm,
       errors.shape += liquid_moments<dim>(x, a, b).volume + liquid_moments<dim>(x, b, a).volume;
     }
   errors.shape   = Utilities::MPI::sum(errors.shape, comm) / volume;
-  errors.volume  = liquid_volume(*state->mesh, state->phi, scene, state->time) / volume - 1;
+  errors.volume  = liquid_volume(*data, state->phi, state->time) / volume - 1;
   errors.markers = Utilities::MPI::sum<unsigned int>(state->markers.size(), comm);
   return errors;
 }
@@ -141,8 +147,10 @@ template <int dim>
 void
 print_for_a_person(char **argv)
 {
+  using Method = typename SurfaceTracking<dim>::Method;
   typename SurfaceTracking<dim>::Parameters tracking;
-  tracking.method            = argv[5];
+  tracking.method            = argv[5] == std::string("level set") ? Method::level_set :
+                                                                     Method::marker_level_set;
   tracking.markers_per_cell  = std::stoi(argv[6]);
   tracking.volume_correction = false;
   const Errors e = carry<dim>(
@@ -158,12 +166,15 @@ template <int dim>
 void
 check(const MPI_Comm &comm, const std::string &name, const unsigned int level)
 {
-  for (const char *method : {"level set", "marker level set"})
+  using Method = typename SurfaceTracking<dim>::Method;
+  for (const auto &[method, value] :
+       {std::make_pair("level set", Method::level_set),
+        std::make_pair("marker level set", Method::marker_level_set)})
     {
-      if (dim == 3 && method == std::string("level set"))
+      if (dim == 3 && value == Method::level_set)
         continue; // for time
       typename SurfaceTracking<dim>::Parameters tracking;
-      tracking.method            = method;
+      tracking.method            = value;
       tracking.volume_correction = false;
       const Errors e             = carry<dim>(comm, name, level, 2, tracking);
       out() << dim << "D, " << name << ", " << method << ": volume " << std::setprecision(3)
@@ -171,10 +182,9 @@ check(const MPI_Comm &comm, const std::string &name, const unsigned int level)
     }
 }
 
-int
-main(int argc, char **argv)
+void
+start(const int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   if (argc > 6)
     std::stoi(argv[2]) == 2 ? print_for_a_person<2>(argv) : print_for_a_person<3>(argv);
   else
@@ -185,3 +195,6 @@ main(int argc, char **argv)
       check<3>(comm, "translation", 4);
     });
 }
+
+const Test test("surface/markers", start);
+} // namespace tests::markers_test

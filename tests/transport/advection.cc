@@ -15,8 +15,8 @@
 
 #include <numeric>
 
-using namespace tests;
-
+namespace tests::advection_test
+{
 template <int dim>
 std::shared_ptr<const Mesh<dim>>
 uniform_mesh(const MPI_Comm &comm, const unsigned int level)
@@ -136,10 +136,9 @@ check_scene(const MPI_Comm &comm, const std::string &scheme)
         << std::endl;
 }
 
-int
-main(int argc, char **argv)
+void
+start(const int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const unsigned int               more = argc > 1 ? std::stoi(argv[1]) : 0;
   out().precision(5);
   on_1_2_3_ranks([&](const MPI_Comm &comm) {
@@ -152,3 +151,6 @@ main(int argc, char **argv)
       }
   });
 }
+
+const Test test("transport/advection", start);
+} // namespace tests::advection_test

@@ -11,8 +11,8 @@
 
 #include <treacle/viscosity/auxiliary_space.h>
 
-using namespace tests;
-
+namespace tests::face_coupled_test
+{
 namespace
 {
   /// Any numbers that do not depend on the partition.
@@ -163,10 +163,9 @@ namespace
   }
 } // namespace
 
-int
-main(int argc, char **argv)
+void
+start(const int, char **)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   on_1_2_3_ranks([](const MPI_Comm &comm) {
     for (const char *stress_model : {"full", "laplacian"})
       {
@@ -175,3 +174,6 @@ main(int argc, char **argv)
       }
   });
 }
+
+const Test test("viscosity/face_coupled", start);
+} // namespace tests::face_coupled_test

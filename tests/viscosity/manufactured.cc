@@ -12,8 +12,8 @@
 
 #include <iomanip>
 
-using namespace tests;
-
+namespace tests::manufactured_test
+{
 namespace
 {
   template <int dim>
@@ -236,12 +236,14 @@ namespace
   }
 } // namespace
 
-int
-main(int argc, char **argv)
+void
+start(const int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   run(argc, argv, check<2>, check<3>, [](const MPI_Comm &comm) {
     check<2>(comm, {4, 5});
     check<3>(comm, {3});
   });
 }
+
+const Test test("viscosity/manufactured", start);
+} // namespace tests::manufactured_test

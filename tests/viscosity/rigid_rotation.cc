@@ -12,8 +12,8 @@
 
 #include <iomanip>
 
-using namespace tests;
-
+namespace tests::rigid_rotation_test
+{
 namespace
 {
   template <int dim>
@@ -59,10 +59,9 @@ namespace
   }
 } // namespace
 
-int
-main(int argc, char **argv)
+void
+start(const int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   run(argc, argv, print<2>, print<3>, [&](const MPI_Comm &comm) {
     for (const char *mapping : mappings)
       {
@@ -71,3 +70,6 @@ main(int argc, char **argv)
       }
   });
 }
+
+const Test test("viscosity/rigid_rotation", start);
+} // namespace tests::rigid_rotation_test

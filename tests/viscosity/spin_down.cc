@@ -11,8 +11,8 @@
 
 #include <iomanip>
 
-using namespace tests;
-
+namespace tests::spin_down_test
+{
 namespace
 {
   constexpr double radius = 0.3;
@@ -78,13 +78,15 @@ namespace
   }
 } // namespace
 
-int
-main(int argc, char **argv)
+void
+start(const int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const auto levels = tests::levels(arguments(argc, argv), 0);
   if (levels.empty())
     on_1_2_3_ranks([](const MPI_Comm &comm) { check(comm, {4, 5}); });
   else
     check(MPI_COMM_WORLD, levels);
 }
+
+const Test test("viscosity/spin_down", start);
+} // namespace tests::spin_down_test

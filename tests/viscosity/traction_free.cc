@@ -10,8 +10,8 @@
 
 #include <iomanip>
 
-using namespace tests;
-
+namespace tests::traction_free_test
+{
 namespace
 {
   template <int dim>
@@ -93,12 +93,14 @@ namespace
   }
 } // namespace
 
-int
-main(int argc, char **argv)
+void
+start(const int argc, char **argv)
 {
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   run(argc, argv, check_all<2>, check_all<3>, [](const MPI_Comm &comm) {
     check_all<2>(comm, {4, 5});
     check_all<3>(comm, {3});
   });
 }
+
+const Test test("viscosity/traction_free", start);
+} // namespace tests::traction_free_test

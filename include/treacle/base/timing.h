@@ -27,6 +27,15 @@ namespace treacle
       return TimerOutput::Scope(timer, name);
     }
 
+    /// What @p work returns; it is a section.
+    template <typename Work>
+    auto
+    measured(const std::string &name, const Work &work)
+    {
+      const auto scope = section(name);
+      return work();
+    }
+
     /// Seconds since construction, on this rank.
     double
     total() const

@@ -9,6 +9,9 @@
 #include <treacle/dynamics/reconstruction.h>
 #include <treacle/dynamics/step_switches.h>
 #include <treacle/dynamics/stokes.h>
+#include <treacle/fields/backward_difference.h>
+#include <treacle/pressure/projection.h>
+#include <treacle/surface/liquid.h>
 #include <treacle/viscosity/viscosity.h>
 
 namespace treacle
@@ -19,12 +22,20 @@ namespace treacle
   class Dynamics
   {
   public:
+    /// How viscosity and pressure know of each other.
+    enum class Coupling
+    {
+      split,
+      split_with_first_projection,
+      stokes
+    };
+
     struct Parameters
     {
-      std::string                              coupling = "coupled";
+      Coupling                                 coupling = Coupling::stokes;
       typename Viscosity<dim>::Parameters      viscosity;
       typename Projection<dim>::Parameters     projection;
-      typename Coupled<dim>::Parameters        coupled;
+      typename Stokes<dim>::Parameters         stokes;
       typename FaceFit<dim>::Parameters        face_fit;
       typename Reconstruction<dim>::Parameters reconstruction;
 
@@ -45,29 +56,29 @@ namespace treacle
       std::vector<Load<dim>> loads; ///< on solids and walls, mean over the step
     };
 
-    /// state.u, v and pressure at state.time, the end of a step; dt is that of its backward difference. The velocity
-    /// is known up to @p reach from the surface (m).
+    /// Velocity and pressure of the state at its time, the end of the difference's step. The
+    /// velocity is known up to @p reach from the surface (m).
     Info
-    advance(State<dim>              &state,
-            const LiquidDomain<dim> &domain,
-            const double             dt,
-            const double             reach,
-            Timing                  &timing) const;
+    advance(Liquid<dim>              &liquid,
+            const BackwardDifference &difference,
+            const double              reach,
+            Timing                   &timing) const;
 
-    /// state.v from state.u, up to @p reach from the surface (m).
+    /// Node velocity from face velocity, up to @p reach from the surface (m).
     void
-    reconstruct(State<dim> &state, const LiquidDomain<dim> &domain, const double reach) const
+    reconstruct(Liquid<dim> &liquid, const double reach) const
     {
-      reconstruction.advance(state, FaceFit<dim>(prm.face_fit, domain), reach);
+      const FaceFit<dim> fit(prm.face_fit, *liquid.domain);
+      reconstruction.advance(*liquid.state, fit, *liquid.surface, reach);
     }
 
-    /// Where the liquid is for these steps.
-    std::unique_ptr<LiquidDomain<dim>>
-    liquid_domain(const State<dim> &state, const Scene<dim> &scene) const;
-
   private:
-    /// A step of the backward difference.
+    /// A step on one surface.
     struct Stage;
+
+    /// Is there a viscosity anywhere, and is it on? Collective.
+    bool
+    is_viscous(const LiquidDomain<dim> &domain) const;
 
     const Parameters          prm;
     const StepSwitches        switches;

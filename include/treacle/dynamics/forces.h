@@ -9,13 +9,13 @@
 
 namespace treacle
 {
-  /// Body force: `u += dt g·n` at the barycentres of liquid faces.
+  /// Body force: `u += step g·n` at the barycentres of liquid faces.
   template <int dim>
   class Forces
   {
   public:
     void
-    advance(State<dim> &state, const LiquidDomain<dim> &domain, const double dt) const
+    advance(State<dim> &state, const LiquidDomain<dim> &domain, const double step) const
     {
       const Mesh<dim> &mesh = domain.mesh;
       std::string      error;
@@ -23,7 +23,7 @@ namespace treacle
         if (domain.is_liquid_face(f))
           keep_error(error, [&] {
             state.u.local_element(f) +=
-              dt * (domain.scene.gravity(mesh.face_centre[f], state.time) * mesh.face_normal[f]);
+              step * (domain.scene.gravity(mesh.face_centre[f], state.time) * mesh.face_normal[f]);
           });
       throw_first(mesh.communicator(), error);
       state.u.update_ghost_values();

@@ -4,6 +4,7 @@
 #ifndef treacle_dynamics_reconstruction_h
 #define treacle_dynamics_reconstruction_h
 
+#include <treacle/surface/surface_geometry.h>
 #include <treacle/viscosity/face_fit.h>
 
 namespace treacle
@@ -13,9 +14,16 @@ namespace treacle
   class Reconstruction
   {
   public:
+    enum class Method
+    {
+      face_fitted,
+      least_squares,
+      two_step
+    };
+
     struct Parameters
     {
-      std::string method = "face fitted";
+      Method method = Method::face_fitted;
 
       /// Subsection Advection.
       void
@@ -28,7 +36,10 @@ namespace treacle
 
     /// Set state.v at active nodes, and within @p reach (m) of the surface in the air.
     void
-    advance(State<dim> &state, const FaceFit<dim> &fit, const double reach) const;
+    advance(State<dim>                 &state,
+            const FaceFit<dim>         &fit,
+            const SurfaceGeometry<dim> &surface,
+            const double                reach) const;
 
   private:
     const Parameters prm;

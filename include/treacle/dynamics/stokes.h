@@ -4,7 +4,7 @@
 #ifndef treacle_dynamics_stokes_h
 #define treacle_dynamics_stokes_h
 
-#include <treacle/pressure/projection.h>
+#include <treacle/pressure/pressure_system.h>
 #include <treacle/viscosity/hybrid.h>
 #include <treacle/viscosity/reactions.h>
 
@@ -13,7 +13,7 @@
 namespace treacle
 {
   /// Viscosity and pressure in one solve: the least of Hybrid's energy among face velocities
-  /// that are free of divergence. With q = dt p, the outflow B u of the pressure cells and
+  /// that are free of divergence. With q = step p, the outflow B u of the pressure cells and
   /// u = (1 - s)(u* + M^-1 B^T q) + s P v there remain, for node velocity and pressure,
   ///
   ///   (K + P^T s M P) v - P^T s B^T q     = P^T s M u*
@@ -23,7 +23,7 @@ namespace treacle
   /// for the first block, and for the pressure one of the projection's matrix and one of
   /// what viscosity makes of the Schur complement, as in Cahouet & Chabard (1988).
   template <int dim>
-  class Coupled
+  class Stokes
   {
   public:
     struct Parameters
@@ -35,14 +35,15 @@ namespace treacle
       add_parameters(ParameterHandler &prm);
     };
 
-    Coupled(const Parameters                          &parameters,
-            const LinearSolver::Parameters            &viscosity_solver,
-            const NodeSystem<dim>                     &system,
-            const typename NodeSystem<dim>::Stiffness &stiffness,
-            const Projection<dim>                     &projection,
-            const double                               dt);
+    /// Over @p step, that of the backward difference (s). The systems must outlive this object.
+    Stokes(const Parameters                          &parameters,
+           const LinearSolver::Parameters            &viscosity_solver,
+           const NodeSystem<dim>                     &system,
+           const typename NodeSystem<dim>::Stiffness &stiffness,
+           const PressureSystem<dim>                 &pressure,
+           const double                               step);
 
-    Coupled(const Coupled &) = delete;
+    Stokes(const Stokes &) = delete;
 
     /// Sets state.u, which holds u*, state.pressure, and state.v at the active nodes; returns
     /// the number of iterations. Where the solve stagnates: changes nothing and returns
@@ -53,7 +54,7 @@ namespace treacle
   private:
     using Pair = LinearAlgebra::distributed::BlockVector<double>; ///< of v and q
 
-    /// V / (2 mu dt) + B (1 - s) M^-1 B^T: what the Schur complement comes to where viscosity
+    /// V / (2 mu step) + B (1 - s) M^-1 B^T: what the Schur complement comes to where viscosity
     /// rules.
     std::unique_ptr<const TrilinosWrappers::SparseMatrix>
     viscous_schur_complement() const;
@@ -71,6 +72,13 @@ namespace treacle
     Pair
     right_hand_side(const State<dim> &state) const;
 
+    Pair
+    first_guess(const State<dim> &state, const Pair &b) const;
+
+    /// Improve x; the number of iterations, nothing where it stagnates.
+    std::optional<unsigned int>
+    solve(Pair &x, const Pair &b) const;
+
     /// u from u*, v and q.
     void
     set_faces(State<dim> &state, const Pair &x, Reactions<dim> &reactions) const;
@@ -78,8 +86,8 @@ namespace treacle
     const Parameters         prm;
     const NodeSystem<dim>   &system;
     const LiquidDomain<dim> &domain;
-    const Projection<dim>   &projection;
-    const double             dt;
+    const PressureSystem<dim> &pressure;
+    const double               step;
     const typename NodeSystem<dim>::Stiffness stiffness;
     const Hybrid<dim>        hybrid;
     const LinearSolver       nodes_solver;

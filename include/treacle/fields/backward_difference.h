@@ -13,13 +13,16 @@ namespace treacle
   /// two sizes where the velocity of the step before is known.
   struct BackwardDifference
   {
-    double step; ///< s
+    double dt;   ///< from u^n to u^{n+1} (s)
+    double step; ///< that a force at the end acts over (s): dt, or about 2/3 dt
     double now    = 1;
     double before = 0;
 
+    /// For a step of size @p dt from the state @p old.
     template <int dim>
     BackwardDifference(const double dt, const State<dim> &old)
-      : step(dt)
+      : dt(dt)
+      , step(dt)
     {
       // BDF2 is stable as long as a step is at most 1 + sqrt(2) times the one before
       if (!old.before || dt > 2 * old.before->dt)

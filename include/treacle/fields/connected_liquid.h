@@ -11,12 +11,12 @@
 
 namespace treacle
 {
-  /// Which piece each numbered cell lies in, cells being connected by liquid faces: the
-  /// smallest number in the piece, over all ranks; of owned cells and ghosts, -1 for cells without a
+  /// Of each numbered cell the smallest number among the cells that liquid faces connect it
+  /// with, over all ranks; of owned cells and ghosts, -1 for cells without a
   /// number. Collective.
   template <int dim>
   Vector
-  label_pieces(const LiquidDomain<dim> &domain, const Numbering &cells);
+  label_connected(const LiquidDomain<dim> &domain, const Numbering &cells);
 
   /// The labels that any rank has. Collective.
   std::set<GlobalIndex>

@@ -65,6 +65,15 @@ namespace treacle
     }
 
   private:
+    /// The open parts of a cell with these vertices and -solid distances there, as volumes in
+    /// the place of fractions.
+    void
+    append_parts(const Simplex<dim>      &x,
+                 const VertexValues<dim> &psi,
+                 const double             least_volume,
+                 const Scene<dim>        &scene,
+                 const double             time);
+
     std::vector<unsigned int> start; ///< of each cell in all, and the end
     std::vector<Part>         all;
     std::vector<double>       volume;

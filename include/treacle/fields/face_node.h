@@ -14,16 +14,6 @@ namespace treacle
   double
   face_velocity(const Mesh<dim> &mesh, const NodeVector<dim> &v, const LocalIndex face);
 
-  /// Mean of v over the neighbours of an owned node where @p counts is positive, each
-  /// as often as they share a cell. Returns whether there is one.
-  template <int dim>
-  bool
-  mean_of_neighbours(const Mesh<dim>       &mesh,
-                     const NodeVector<dim> &v,
-                     const Vector          &counts,
-                     const LocalIndex       node,
-                     Tensor<1, dim>        &mean);
-
   /// Set the prescribed components at owned nodes and update the ghosts of v.
   template <int dim>
   void

@@ -18,6 +18,71 @@ namespace treacle
       result += outer_product(v.value(mesh.cell_nodes[cell][i]), mesh.cell_gradients[cell][i]);
     return result;
   }
+
+  /// Of a P1 field in a cell.
+  template <int dim>
+  Tensor<1, dim>
+  cell_gradient(const Mesh<dim> &mesh, const LocalIndex cell, const Vector &field)
+  {
+    Tensor<1, dim> g;
+    for (unsigned int i = 0; i <= dim; ++i)
+      g += field.local_element(mesh.cell_nodes[cell][i]) * mesh.cell_gradients[cell][i];
+    return g;
+  }
+
+  template <int dim>
+  struct MeanGradient
+  {
+    Tensor<1, dim> mean;
+    double         length = 0; ///< the mean of the lengths
+  };
+
+  /// Of a P1 field, volume-weighted means over the cells around an owned node that
+  /// @p counts holds for.
+  template <int dim, typename Counts>
+  MeanGradient<dim>
+  mean_gradient(const Mesh<dim>  &mesh,
+                const Vector     &field,
+                const LocalIndex  node,
+                const Counts     &counts)
+  {
+    MeanGradient<dim> result;
+    double            volume = 0;
+    for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+      {
+        const LocalIndex c = mesh.node_cells[k];
+        if (!counts(c))
+          continue;
+        const Tensor<1, dim> g = cell_gradient(mesh, c, field);
+        volume += mesh.cell_volume[c];
+        result.mean += mesh.cell_volume[c] * g;
+        result.length += mesh.cell_volume[c] * g.norm();
+      }
+    result.mean /= volume;
+    result.length /= volume;
+    return result;
+  }
+
+  /// The same over all cells around the node.
+  template <int dim>
+  MeanGradient<dim>
+  mean_gradient(const Mesh<dim> &mesh, const Vector &field, const LocalIndex node)
+  {
+    return mean_gradient(mesh, field, node, [](const LocalIndex) { return true; });
+  }
+
+  /// Gradient of a P1 field at the nodes, the volume-weighted mean over the cells
+  /// around each: exact for linear fields. Ghosts of the result are up to date.
+  template <int dim>
+  NodeVector<dim>
+  nodal_gradient(const Mesh<dim> &mesh, const Vector &field)
+  {
+    NodeVector<dim> gradient(mesh.nodes);
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      gradient.set(node, mean_gradient(mesh, field, node).mean);
+    gradient.update_ghost_values();
+    return gradient;
+  }
 } // namespace treacle
 
 #endif

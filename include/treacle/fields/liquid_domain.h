@@ -5,6 +5,7 @@
 #define treacle_fields_liquid_domain_h
 
 #include <treacle/fields/cut_cells.h>
+#include <treacle/fields/mesh_data.h>
 #include <treacle/fields/state.h>
 
 namespace treacle
@@ -13,10 +14,7 @@ namespace treacle
   /// up-to-date ghosts.
   template <int dim>
   double
-  liquid_volume(const Mesh<dim>  &mesh,
-                const Vector     &phi,
-                const Scene<dim> &scene,
-                const double      time);
+  liquid_volume(const MeshData<dim> &data, const Vector &phi, const double time);
 
   /// Where the liquid is, and how much of it a cell, face and node carries:
   /// computed once for each surface. Arrays run over owned entries and ghosts.
@@ -32,16 +30,26 @@ namespace treacle
       nodes
     };
 
-    /// @p minimum_theta bounds the liquid part of a dual edge from below. Throws
-    /// a UserError on all ranks where a density or viscosity makes no sense.
-    LiquidDomain(const State<dim> &state,
-                 const Scene<dim> &scene,
-                 const double      minimum_theta,
-                 const Hold        hold = Hold::walls);
+    struct Parameters
+    {
+      Hold   hold          = Hold::walls;
+      double minimum_theta = 1e-4; ///< bounds the liquid part of a dual edge from below
 
-    const Mesh<dim>  &mesh;
-    const Scene<dim> &scene;
-    const double      minimum_theta;
+      /// Subsections Viscosity and Pressure.
+      void
+      add_parameters(ParameterHandler &prm);
+    };
+
+    /// Throws a UserError on all ranks where a density or viscosity makes no sense.
+    /// @p data are of the state's mesh, and must outlive this object.
+    LiquidDomain(const Parameters    &parameters,
+                 const State<dim>    &state,
+                 const MeshData<dim> &data);
+
+    const MeshData<dim> &data;
+    const Mesh<dim>     &mesh;
+    const Scene<dim>    &scene;
+    const double         minimum_theta;
 
     // -- cells --
     std::vector<double>         liquid_volume;    ///< of {phi<0} outside solids (m^dim)
@@ -97,15 +105,36 @@ namespace treacle
     void
     measure_cells(const State<dim> &state);
 
+    void
+    measure_cell(const LocalIndex cell, const State<dim> &state);
+
+    /// Viscosity and density of an active cell.
+    void
+    find_material(const LocalIndex cell, const State<dim> &state);
+
     /// Open fraction and solid velocity of a face.
     void
     measure_openings(const LocalIndex face, const double time);
+
+    /// The same of a face that is not all open, with vertices x and held distances there.
+    void
+    measure_held_part(const LocalIndex                   face,
+                      const std::array<Point<dim>, dim> &x,
+                      const VertexValues<dim - 1>       &held,
+                      const double                       time);
+
+    /// theta of an owned open face beside an active cell, not yet bounded from below.
+    double
+    liquid_part_of_dual_edge(const LocalIndex face) const;
 
     void
     measure_faces(const State<dim> &state);
 
     void
     measure_nodes(const State<dim> &state);
+
+    void
+    prescribe_nodes(const double time);
   };
 } // namespace treacle
 

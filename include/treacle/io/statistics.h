@@ -4,23 +4,11 @@
 #ifndef treacle_io_statistics_h
 #define treacle_io_statistics_h
 
-#include <treacle/dynamics/dynamics.h>
+#include <treacle/dynamics/step_info.h>
 #include <treacle/io/probes.h>
 
 namespace treacle
 {
-  /// What a step reports beside the state it leaves.
-  template <int dim>
-  struct StepInfo
-  {
-    double       dt                   = 0; ///< s
-    bool         rebuilt              = false; ///< the mesh is new
-    double       emitted              = 0;     ///< volume from emitters (m^dim)
-    double       wall_time            = 0;     ///< s
-
-    typename Dynamics<dim>::Info dynamics;
-  };
-
   /// The table `statistics` in the output directory, one row a step. Rows are
   /// appended, so a kill loses at most a part of the last, which is dropped
   /// when the run is resumed.

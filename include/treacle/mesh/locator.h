@@ -15,11 +15,16 @@ namespace treacle
     LocalIndex        cell = invalid;
     Point<dim>        point;
     VertexValues<dim> lambda;
+
+    double
+    smallest_coordinate() const
+    {
+      return *std::min_element(lambda.begin(), lambda.end());
+    }
   };
 
   /// Finds the cell that contains a point; points outside of the mesh are moved to
-  /// the nearest cell. On a lattice there is no search: the octree gives the leaf, the
-  /// largest component of x - centre the face of the leaf over which the cell stands.
+  /// the nearest cell.
   template <int dim>
   class Locator
   {
@@ -28,13 +33,17 @@ namespace treacle
       : mesh(mesh)
     {}
 
+    Locator(const Locator &) = delete;
+
+    virtual ~Locator() = default;
+
     /// The cell is invalid if it is, or may be, one of another rank.
-    Location<dim>
-    locate(const Point<dim> &x) const;
+    virtual Location<dim>
+    locate(const Point<dim> &x) const = 0;
 
     /// The cell of this rank, which is known to own the point.
-    Location<dim>
-    locate_here(const Point<dim> &x) const;
+    virtual Location<dim>
+    locate_here(const Point<dim> &x) const = 0;
 
     struct Owner
     {
@@ -44,34 +53,36 @@ namespace treacle
 
     /// Which ranks have the cells of these points? The same on whichever rank a point
     /// is asked for. Collective.
-    std::vector<Owner>
-    owners(const std::vector<Point<dim>> &x) const;
+    virtual std::vector<Owner>
+    owners(const std::vector<Point<dim>> &x) const = 0;
 
     /// Points moved into the mesh. Collective.
-    std::vector<Point<dim>>
-    clamped(const std::vector<Point<dim>> &x) const;
+    virtual std::vector<Point<dim>>
+    clamped(const std::vector<Point<dim>> &x) const = 0;
 
-  private:
+    /// Boxes around the cells that this rank owns, or whose leaves it does.
+    virtual std::vector<BoundingBox<dim>>
+    covering_boxes() const = 0;
+
+  protected:
     Point<dim>
-    moved_to_box(Point<dim> x) const;
+    moved_to_box(Point<dim> x) const
+    {
+      const BoundingBox<dim> &box = mesh.box();
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d] = std::min(std::max(x[d], box.lower_bound(d)), box.upper_bound(d));
+      return x;
+    }
 
     Location<dim>
-    in_lattice(const Point<dim> &x) const;
-
-    Location<dim>
-    in_cell(const LocalIndex cell, const Point<dim> &x) const;
-
-    /// The cell of the lowest number that contains x. With @p owned, of owned ones;
-    /// else of all, but invalid if no owned one contains it: what does not touch the
-    /// cells of this rank is only partly known here.
-    Location<dim>
-    in_tree(const Point<dim> &x, const bool owned) const;
-
-    Location<dim>
-    on_wall(const typename CellTree<dim>::Nearest &nearest) const;
-
-    std::vector<Owner>
-    owners_in_tree(const std::vector<Point<dim>> &x) const;
+    in_cell(const LocalIndex cell, const Point<dim> &x) const
+    {
+      const Point<dim> &origin = mesh.node_position[mesh.cell_nodes[cell][0]];
+      Location<dim>     result{cell, x, {}};
+      for (unsigned int i = 0; i <= dim; ++i)
+        result.lambda[i] = (i == 0 ? 1. : 0.) + mesh.cell_gradients[cell][i] * (x - origin);
+      return result;
+    }
 
     const Mesh<dim>                &mesh;
     mutable std::vector<LocalIndex> candidates;

@@ -5,18 +5,25 @@
 #define treacle_mesh_mesh_h
 
 #include <treacle/geometry/simplex.h>
-#include <treacle/mesh/cell_tree.h>
-#include <treacle/mesh/face_normal_element.h>
-#include <treacle/mesh/lattice_mesh.h>
+#include <treacle/mesh/mesh_cells.h>
 #include <treacle/mesh/node_vector.h>
+#include <treacle/mesh/octree.h>
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/partitioner.h>
-#include <deal.II/distributed/fully_distributed_tria.h>
-#include <deal.II/dofs/dof_handler.h>
 
 namespace treacle
 {
-  /// A distributed simplex mesh: deal.II's, and flat arrays for hot loops.
+  template <int dim>
+  class LatticeMesh;
+
+  template <int dim>
+  class Locator;
+
+  template <int dim>
+  struct MeshNumbering;
+
+  /// A distributed simplex mesh as flat arrays, numbered by deal.II.
   /// Never changed: a new surface makes a new mesh. Arrays hold the owned
   /// entries first, then the ghosts, in the order of the partitioner's local
   /// indices; ghost cells are all that share a node with an owned cell.
@@ -34,26 +41,25 @@ namespace treacle
 
     Mesh(const Mesh &) = delete;
 
-    /// Null for a mesh from a file.
-    const LatticeMesh<dim> *
-    lattice() const
+    /// Does it stand on a lattice, which is made anew where the surface goes?
+    bool
+    is_lattice() const
     {
-      return on_lattice.get();
+      return tree != nullptr;
     }
 
-    /// Null for a mesh on a lattice.
-    const CellTree<dim> *
-    cell_tree() const
-    {
-      return tree.get();
-    }
-
-    /// Of a mesh on a lattice.
+    /// Of a lattice.
     const Octree<dim> &
     octree() const
     {
-      AssertThrow(on_lattice, ExcMessage("This mesh was read from a file."));
-      return on_lattice->octree();
+      Assert(is_lattice(), ExcMessage("This mesh was read from a file."));
+      return *tree;
+    }
+
+    const Locator<dim> &
+    locator() const
+    {
+      return *finder;
     }
 
     const MPI_Comm &
@@ -89,14 +95,6 @@ namespace treacle
     {
       return largest_at_surface;
     }
-
-    /// Boxes around what this rank owns.
-    std::vector<BoundingBox<dim>>
-    covering_boxes() const;
-
-    parallel::fullydistributed::Triangulation<dim> triangulation;
-    DoFHandler<dim>                                node_dofs;
-    DoFHandler<dim>                                face_dofs;
 
     Partitioner nodes; ///< one value a node
     Partitioner faces; ///< one value a face
@@ -183,29 +181,49 @@ namespace treacle
     make(const MeshCells<dim> &mesh_cells);
 
     void
-    number(const MeshCells<dim> &mesh_cells);
-
-    void
-    fill_cells(const MeshCells<dim> &mesh_cells);
+    fill_cells(const MeshCells<dim> &mesh_cells, const MeshNumbering<dim> &numbering);
 
     void
     fill_faces();
 
+    /// All that the first cell of a face tells, whose node opposite is its node i.
     void
-    measure_dual_edges();
+    fill_face(const LocalIndex face, const LocalIndex cell, const unsigned int i);
+
+    void
+    agree_on_ghost_faces();
+
+    /// Dual lengths below @p least, a part of the distance of the barycentres along the
+    /// normal, are lengthened to it; 0: none.
+    void
+    measure_dual_edges(const double least);
+
+    /// The second cell's dual centre; on the box, below the first's.
+    Point<dim>
+    end_of_dual_edge(const LocalIndex face) const;
+
+    Point<dim>
+    barycentre(const LocalIndex cell) const;
 
     void
     fill_nodes();
 
-    void
-    make_tree();
+    /// Around all nodes.
+    BoundingBox<dim>
+    find_box() const;
 
-    const MPI_Comm                          comm;
-    std::unique_ptr<const LatticeMesh<dim>> on_lattice;
-    std::unique_ptr<const CellTree<dim>>    tree;
-    BoundingBox<dim>                        around;
-    double                                  finest, largest_at_surface;
+    const MPI_Comm                      comm;
+    std::shared_ptr<const Octree<dim>>  tree; ///< null for a mesh from a file
+    std::shared_ptr<const Locator<dim>> finder;
+    BoundingBox<dim>                    around;
+    double                              finest, largest_at_surface;
   };
+
+  /// Over the lattice, or by a tree of cells if there is none. Defined with the locators, which
+  /// know the mesh. Collective.
+  template <int dim>
+  std::shared_ptr<const Locator<dim>>
+  make_locator(const Mesh<dim> &mesh, std::unique_ptr<const LatticeMesh<dim>> lattice);
 } // namespace treacle
 
 #endif

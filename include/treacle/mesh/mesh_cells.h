@@ -6,8 +6,6 @@
 
 #include <treacle/base/types.h>
 
-#include <deal.II/grid/tria_description.h>
-
 #include <vector>
 
 namespace treacle
@@ -56,16 +54,6 @@ namespace treacle
     std::vector<Cell>   cells; ///< in the order of their ids
     std::vector<Vertex> vertices;
   };
-
-  /// For deal.II.
-  template <int dim>
-  TriangulationDescription::Description<dim, dim>
-  describe(const MPI_Comm &comm, const MeshCells<dim> &mesh);
-
-  /// The vertex of a simplex that is opposite deal.II's face f.
-  template <int dim>
-  unsigned int
-  opposite_vertex(const unsigned int f);
 } // namespace treacle
 
 #endif

@@ -6,6 +6,8 @@
 
 #include <treacle/mesh/mesh_cells.h>
 
+#include <deal.II/grid/tria.h>
+
 namespace treacle
 {
   /// The triangles or tetrahedra of a mesh file, on the one rank that reads it.

@@ -4,7 +4,7 @@
 #ifndef treacle_mesh_near_ranks_h
 #define treacle_mesh_near_ranks_h
 
-#include <treacle/mesh/mesh.h>
+#include <treacle/mesh/locator.h>
 
 namespace treacle
 {
@@ -17,7 +17,7 @@ namespace treacle
     NearRanks(const Mesh<dim> &mesh, const double margin)
       : rank(Utilities::MPI::this_mpi_process(mesh.communicator()))
     {
-      std::vector<BoundingBox<dim>> mine = mesh.covering_boxes();
+      std::vector<BoundingBox<dim>> mine = mesh.locator().covering_boxes();
       for (BoundingBox<dim> &box : mine)
         box.extend(margin);
       boxes = Utilities::MPI::all_gather(mesh.communicator(), mine);

@@ -31,7 +31,7 @@ namespace treacle
   public:
     explicit Tracer(const Mesh<dim> &mesh)
       : mesh(mesh)
-      , locator(mesh)
+      , locator(mesh.locator())
     {}
 
     /// Values of n fields at each point: [point * n + field]. Points outside
@@ -53,8 +53,8 @@ namespace treacle
                   const std::vector<NodeField<dim>> &fields,
                   double                            *result) const;
 
-    const Mesh<dim>   &mesh;
-    const Locator<dim> locator;
+    const Mesh<dim>    &mesh;
+    const Locator<dim> &locator;
   };
 } // namespace treacle
 

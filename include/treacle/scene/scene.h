@@ -87,6 +87,15 @@ namespace treacle
     double
     solid_distance(const Point<dim> &x, const double t) const;
 
+    bool
+    has_moving_solids() const;
+
+    /// The same to the solids at rest, and to the others.
+    double
+    resting_solid_distance(const Point<dim> &x) const;
+    double
+    moving_solid_distance(const Point<dim> &x, const double t) const;
+
     /// Of the nearest solid (m/s).
     Tensor<1, dim>
     solid_velocity(const Point<dim> &x, const double t) const;

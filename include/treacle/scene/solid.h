@@ -29,6 +29,12 @@ namespace treacle
     /// @p where names the subsection in messages.
     Solid(const Parameters &parameters, const std::string &where, const BoundingBox<dim> &box);
 
+    bool
+    is_moving() const
+    {
+      return motion.is_moving();
+    }
+
     /// Negative inside the solid (m).
     double
     signed_distance(const Point<dim> &x, const double t) const;

@@ -44,11 +44,19 @@ namespace treacle
     /// Sets its first argument to a linear map of the second.
     using Operator = std::function<void(Vector &, const Vector &)>;
 
+    enum class Preconditioner
+    {
+      amg,
+      incomplete_cholesky,
+      jacobi,
+      none
+    };
+
     struct Parameters
     {
-      std::string  preconditioner     = "amg";
-      double       relative_tolerance = 1e-6;
-      unsigned int maximum_iterations = 1000;
+      Preconditioner preconditioner     = Preconditioner::amg;
+      double         relative_tolerance = 1e-6;
+      unsigned int   maximum_iterations = 1000;
 
       /// Subsection Linear solvers / @p name. A remark goes into the documentation
       /// of the preconditioner.

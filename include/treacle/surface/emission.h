@@ -15,7 +15,7 @@ namespace treacle
   /// it takes part in the motion. Collective.
   template <int dim>
   double
-  emit(State<dim> &state, const Scene<dim> &scene, const double dt);
+  emit(State<dim> &state, const MeshData<dim> &data, const double dt);
 } // namespace treacle
 
 #endif

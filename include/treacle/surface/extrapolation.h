@@ -5,6 +5,7 @@
 #define treacle_surface_extrapolation_h
 
 #include <treacle/fields/liquid_domain.h>
+#include <treacle/surface/surface_geometry.h>
 
 namespace treacle
 {
@@ -13,7 +14,10 @@ namespace treacle
   /// components are set, and faces without liquid receive P v.
   template <int dim>
   void
-  extrapolate(State<dim> &state, const LiquidDomain<dim> &domain, const double reach);
+  extrapolate(State<dim>                 &state,
+              const LiquidDomain<dim>    &domain,
+              const SurfaceGeometry<dim> &surface,
+              const double                reach);
 } // namespace treacle
 
 #endif

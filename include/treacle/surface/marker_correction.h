@@ -8,12 +8,6 @@
 
 namespace treacle
 {
-  /// Where the markers are after dt, still on the ranks they came from, with normals
-  /// turned and sheared as the surface is. Collective.
-  template <int dim>
-  std::vector<Marker<dim>>
-  moved_markers(const State<dim> &state, const NodeVector<dim> &velocity, const double dt);
-
   /// Bring phi at the nodes within 1.25 leaves of markers to the surface the markers lie
   /// on. Collective.
   template <int dim>

@@ -4,8 +4,8 @@
 #ifndef treacle_surface_material_extension_h
 #define treacle_surface_material_extension_h
 
+#include <treacle/fields/mesh_data.h>
 #include <treacle/fields/state.h>
-#include <treacle/scene/scene.h>
 
 namespace treacle
 {
@@ -20,7 +20,7 @@ namespace treacle
   /// the liquid. Collective.
   template <int dim>
   void
-  extend_material(State<dim> &state, const unsigned int n_layers);
+  extend_material(State<dim> &state, const MeshData<dim> &data, const unsigned int n_layers);
 } // namespace treacle
 
 #endif

@@ -8,12 +8,6 @@
 
 namespace treacle
 {
-  /// Gradient of a P1 field at the nodes, the volume-weighted mean over the cells
-  /// around each: exact for linear fields. Ghosts of the result are up to date.
-  template <int dim>
-  NodeVector<dim>
-  nodal_gradient(const Mesh<dim> &mesh, const Vector &field);
-
   /// Make phi a signed distance, within @p reach (m) of the surface and clamped
   /// beyond. The surface stays where it is: near it phi is left alone where it is a
   /// distance well enough, and nodes of cut cells are only ever scaled towards a

@@ -40,6 +40,30 @@ namespace treacle
   template <int dim>
   Surface<dim>
   extract_surface(const Mesh<dim> &mesh, const Vector &phi);
+
+  /// Call @p visit with the vertices of each facet of phi = 0 in a cell.
+  template <int dim, typename Visit>
+  void
+  for_each_facet(const Mesh<dim>  &mesh,
+                 const Vector     &phi,
+                 const LocalIndex  cell,
+                 const Visit      &visit)
+  {
+    const VertexValues<dim> values = mesh.values(cell, phi);
+    const Facets<dim>       facets = surface_facets<dim>(values);
+    for (unsigned int k = 0; k < facets.n; ++k)
+      {
+        std::array<Point<dim>, dim> x;
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            const auto [a, b]      = facets.facet[k][i];
+            const Point<dim> &from = mesh.node_position[mesh.cell_nodes[cell][a]];
+            x[i]                   = from + edge_zero(values[a], values[b]) *
+                            (mesh.node_position[mesh.cell_nodes[cell][b]] - from);
+          }
+        visit(x);
+      }
+  }
 } // namespace treacle
 
 #endif

@@ -17,8 +17,9 @@ namespace treacle
   class SurfaceDistance
   {
   public:
-    /// Collective: each rank receives the facets within @p reach (m) of its leaves.
-    SurfaceDistance(const Mesh<dim> &mesh, const Vector &phi, const double reach);
+    /// @p surface in the cells of this rank. Collective: each rank receives the facets within
+    /// @p reach (m) of its leaves.
+    SurfaceDistance(const Mesh<dim> &mesh, const Surface<dim> &surface, const double reach);
 
     struct Nearest
     {
@@ -33,6 +34,10 @@ namespace treacle
 
   private:
     using Facet = std::array<Point<dim>, dim>;
+
+    /// Append those of this rank and of others.
+    void
+    gather_facets(const Mesh<dim> &mesh, const Surface<dim> &surface);
 
     double
     distance_beyond_box(const Point<dim> &x, const Point<dim> &nearest, const Facet &facet) const;

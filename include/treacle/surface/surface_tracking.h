@@ -4,7 +4,8 @@
 #ifndef treacle_surface_surface_tracking_h
 #define treacle_surface_surface_tracking_h
 
-#include <treacle/fields/liquid_domain.h>
+#include <treacle/fields/mesh_data.h>
+#include <treacle/surface/surface_geometry.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -15,9 +16,15 @@ namespace treacle
   class SurfaceTracking
   {
   public:
+    enum class Method
+    {
+      marker_level_set,
+      level_set
+    };
+
     struct Parameters
     {
-      std::string  method            = "marker level set";
+      Method       method            = Method::marker_level_set;
       unsigned int markers_per_cell  = 12;
       bool         volume_correction = true;
 
@@ -30,23 +37,27 @@ namespace treacle
     {}
 
     /// @p state has phi and markers of the new time. Distances within @p reach (m);
-    /// with volume correction the surface is moved to restore @p volume (m^dim).
-    void
-    advance(State<dim> &state, const Scene<dim> &scene, const double reach, const double volume) const;
+    /// with volume correction the surface is moved to restore @p volume (m^dim). Returns
+    /// the surface.
+    std::unique_ptr<const SurfaceGeometry<dim>>
+    advance(State<dim>          &state,
+            const MeshData<dim> &data,
+            const double         reach,
+            const double         volume) const;
 
     /// Markers, if there are to be any, on a surface that has too few.
     void
-    reseed(State<dim> &state, const Scene<dim> &scene) const;
+    reseed(State<dim> &state, const Scene<dim> &scene, const SurfaceGeometry<dim> &surface) const;
 
   private:
     bool
     has_markers() const
     {
-      return prm.method == "marker level set";
+      return prm.method == Method::marker_level_set;
     }
 
     void
-    correct_volume(State<dim> &state, const Scene<dim> &scene, const double volume) const;
+    correct_volume(State<dim> &state, const MeshData<dim> &data, const double volume) const;
 
     const Parameters prm;
   };

@@ -6,7 +6,7 @@
 
 #include <treacle/fields/backward_difference.h>
 #include <treacle/fields/liquid_domain.h>
-#include <treacle/surface/smooth_level_set.h>
+#include <treacle/surface/surface_geometry.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -19,27 +19,34 @@ namespace treacle
   class Advection
   {
   public:
+    enum class Scheme
+    {
+      semi_lagrangian,
+      maccormack
+    };
+
     struct Parameters
     {
-      std::string scheme = "semi-Lagrangian";
+      Scheme scheme = Scheme::semi_lagrangian;
 
       /// Subsection Advection.
       void
       add_parameters(ParameterHandler &prm);
     };
 
-    /// By a step of size dt.
-    Advection(const Parameters        &parameters,
-              const State<dim>        &old,
-              const LiquidDomain<dim> &domain,
-              const double             dt);
+    /// By the step of a backward difference. All must outlive this object.
+    Advection(const Parameters           &parameters,
+              const State<dim>           &old,
+              const LiquidDomain<dim>    &domain,
+              const SurfaceGeometry<dim> &surface,
+              const BackwardDifference   &difference);
 
     /// The state at old.time + dt: phi, carried material, and u within @p reach (m)
     /// of the liquid, which is what the backward difference starts from.
     State<dim>
     advance(std::shared_ptr<const Mesh<dim>> mesh, const double reach) const;
 
-    /// The old velocity at the nodes of the new mesh, for the next backward difference.
+    /// The old velocity at the nodes of a new mesh, for the next backward difference.
     VelocityBefore<dim>
     velocity_before(const Mesh<dim> &mesh) const;
 
@@ -71,14 +78,14 @@ namespace treacle
     void
     advance_faces(State<dim> &state, const double reach) const;
 
-    const Parameters         prm;
-    const State<dim>        &old;
-    const double             dt;
-    const BackwardDifference difference;
+    const Parameters            prm;
+    const State<dim>           &old;
+    const SurfaceGeometry<dim> &surface;
+    const BackwardDifference    difference;
+    const double                dt;
     /// At nodes, in the middle of the step if the velocity before is known.
-    const NodeVector<dim>     velocity;
-    const NodeVector<dim>     surface_velocity; ///< what moves the surface, and material
-    const SmoothLevelSet<dim> phi;
+    const NodeVector<dim> velocity;
+    const NodeVector<dim> surface_velocity; ///< what moves the surface, and material
   };
 } // namespace treacle
 

@@ -34,6 +34,7 @@ namespace treacle
   std::shared_ptr<const Mesh<dim>>
   mesh_for_next_surface(const State<dim>               &state,
                         const Scene<dim>               &scene,
+                        const SurfaceGeometry<dim>     &surface,
                         const Advection<dim>           &advection,
                         const std::vector<Marker<dim>> &markers,
                         const double                    dt);

@@ -15,6 +15,12 @@ namespace treacle
   class TimeStep
   {
   public:
+    enum class Scheme
+    {
+      bdf2,
+      backward_euler
+    };
+
     struct Parameters
     {
       double end_time       = 1;
@@ -22,7 +28,7 @@ namespace treacle
       double cfl            = 3;
       double maximum        = 0.04;
 
-      std::string scheme = "BDF2";
+      Scheme scheme = Scheme::bdf2;
 
       void
       add_parameters(ParameterHandler &prm);
@@ -44,7 +50,7 @@ namespace treacle
     bool
     is_second_order() const
     {
-      return prm.scheme == "BDF2";
+      return prm.scheme == Scheme::bdf2;
     }
 
     double

@@ -10,7 +10,7 @@ namespace treacle
 {
   /// The face-coupled step solved with the nodes as auxiliary space. With the node
   /// velocity v = H u and the viscous force f at the nodes, `u = u_old - M_f^-1 H^T f`,
-  /// and `K v - f = b`, `-v - G f = -H u_old`, where K = -dt D, G = H M_f^-1 H^T, and b
+  /// and `K v - f = b`, `-v - G f = -H u_old`, where K = -step D, G = H M_f^-1 H^T, and b
   /// comes from prescribed components. This symmetric indefinite system is solved by
   /// MINRES. Its preconditioner is positive definite: one V-cycle of algebraic multigrid
   /// for (K + diag(m))^-1 and a polynomial in m^-1 W for G^-1, where W = P^T M_f P and m are

@@ -9,7 +9,7 @@
 
 namespace treacle
 {
-  /// The viscous step in the velocity of the liquid faces, `A = M_f - dt H^T D H`
+  /// The viscous step in the velocity of the liquid faces, `A = M_f - step H^T D H`
   /// (the paper's implicit coupling), never formed. H is weighted with M_f: without
   /// weights neighbouring faces of a smooth flow are accelerated differently, and the
   /// error does not fall with the mesh (doc/method.md). Face vectors live on the mesh's
@@ -18,7 +18,7 @@ namespace treacle
   class FaceCoupled
   {
   public:
-    /// @p stiffness makes -dt D. The system must outlive this object.
+    /// @p stiffness makes -step D. The system must outlive this object.
     FaceCoupled(const NodeSystem<dim>                     &system,
                 const typename NodeSystem<dim>::Stiffness &stiffness);
 
@@ -45,7 +45,7 @@ namespace treacle
       return inverse_mass_of_faces;
     }
 
-    /// -dt D, and what prescribed components contribute to the forces.
+    /// -step D, and what prescribed components contribute to the forces.
     const typename NodeSystem<dim>::Assembled &
     stiffness() const
     {
@@ -58,7 +58,7 @@ namespace treacle
   private:
     Vector                              mass;      ///< M_f
     Vector                              inverse_mass_of_faces;
-    typename NodeSystem<dim>::Assembled assembled; ///< -dt D
+    typename NodeSystem<dim>::Assembled assembled; ///< -step D
     mutable Vector                      v, force;  ///< scratch: unknowns of nodes
   };
 } // namespace treacle

@@ -11,7 +11,7 @@ namespace treacle
   /// Viscosity at the nodes, which drags the faces along: the velocity u of the faces and
   /// v of the nodes make
   ///
-  ///   1/2 |u - u*|^2_M + 1/2 v·K v + 1/2 |u - P v|^2_N,   K = -dt D, N = drag nu dt / h^2 M,
+  ///   1/2 |u - u*|^2_M + 1/2 v·K v + 1/2 |u - P v|^2_N,   K = -step D, N = drag nu step / h^2 M,
   ///
   /// least. What P v cannot follow decays at the rate drag nu / h^2, smooth motion
   /// as K says, to second order in h; no force acts on a rigid motion, and none is created.
@@ -22,17 +22,17 @@ namespace treacle
   class Hybrid
   {
   public:
-    /// On which faces the drag acts in the system for v: on all, or, coupled with the pressure,
-    /// on those that it acts on, and on all of liquid without any pressure cell.
+    /// On which faces the drag acts in the system for v: on all, or, solved for together with
+    /// the pressure, on those that it acts on, and on all of liquid without any pressure cell.
     enum class Faces
     {
       all,
-      coupled
+      under_pressure
     };
 
     Hybrid(const NodeSystem<dim>                     &system,
            const typename NodeSystem<dim>::Stiffness &stiffness,
-           const double                               dt,
+           const double                               step,
            const Faces                                faces);
 
     /// P^T s M u*, and what prescribed values contribute. Faces that take no part pull v,

@@ -32,8 +32,8 @@ namespace treacle
     };
 
     /// Weights of the two terms in each cell; an empty one is zero. In a cell that a
-    /// solid cuts they are for its open part, whose strain takes the wall into account. For -dt D they
-    /// are dt mu V: of the strain for the full stress, of the gradient for
+    /// solid cuts they are for its open part, whose strain takes the wall into account. For -step D they
+    /// are step mu V: of the strain for the full stress, of the gradient for
     /// div(mu grad v).
     struct Stiffness
     {
@@ -100,21 +100,38 @@ namespace treacle
     const LiquidDomain<dim> &domain;
 
   private:
+    /// The rows of a node: blocks of dim by dim.
+    struct Row;
+
     void
-    assemble_node(const Mass                   mass,
-                  const Stiffness             &stiffness,
-                  const std::vector<double>   &face_mass,
-                  const LocalIndex             node,
-                  std::vector<LocalIndex>     &columns,
-                  std::vector<Tensor<2, dim>> &blocks,
-                  Tensor<1, dim>              &wall_force) const;
+    add_stiffness(const Stiffness &stiffness,
+                  const LocalIndex node,
+                  const LocalIndex cell,
+                  Row             &row) const;
+
+    /// Of the faces whose lower cell this is.
+    void
+    add_face_mass(const std::vector<double> &face_mass,
+                  const LocalIndex           node,
+                  const LocalIndex           cell,
+                  Row                       &row) const;
+
+    void
+    assemble_row(const Mass                 mass,
+                 const Stiffness           &stiffness,
+                 const std::vector<double> &face_mass,
+                 const LocalIndex           node,
+                 Row                       &row) const;
+
+    /// The rows of owned node i of nodes() into the matrix.
+    void
+    insert(const Row &row, const unsigned int i, const bool decoupled, Assembled &result) const;
 
     const Numbering                 numbering; ///< of the active nodes
     const std::vector<LocalIndex>  &owned_nodes;
     const std::vector<GlobalIndex> &number;
     const IndexSet                 &rows;
     std::vector<unsigned int>       row_lengths;
-    mutable std::vector<LocalIndex> slot; ///< scratch: node -> place in columns
   };
 } // namespace treacle
 

@@ -46,14 +46,14 @@ namespace treacle
     void
     add_inertia(const NodeSystem<dim> &system, const Vector &before, const Vector &after);
 
-    /// Of a pressure (Pa) in cells, zero in the air, over dt.
+    /// Of a pressure (Pa) in cells, zero in the air, over step.
     void
-    add_pressure(const Vector &pressure, const double dt);
+    add_pressure(const Vector &pressure, const double step);
 
-    /// Of the liquid on each body, mean over dt; torques about the solid's centre of rotation,
+    /// Of the liquid on each body, mean over step; torques about the solid's centre of rotation,
     /// of walls about the middle of the box. Collective.
     std::vector<Load<dim>>
-    loads(const double dt) const;
+    loads(const double step) const;
 
   private:
     static constexpr unsigned int none = numbers::invalid_unsigned_int;

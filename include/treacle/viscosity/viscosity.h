@@ -4,24 +4,49 @@
 #ifndef treacle_viscosity_viscosity_h
 #define treacle_viscosity_viscosity_h
 
+#include <treacle/base/choice.h>
 #include <treacle/viscosity/face_fit.h>
 #include <treacle/viscosity/reactions.h>
 
 namespace treacle
 {
   /// The implicit viscous step, a nodal finite volume method (Batty & Houston
-  /// 2011, section 4): `(M - dt D) v = M v_old` at the nodes, carried between
+  /// 2011, section 4): `(M - step D) v = M v_old` at the nodes, carried between
   /// face and node velocity by a mapping, or the same in the velocity of the faces.
   template <int dim>
   class Viscosity
   {
   public:
+    enum class Mapping
+    {
+      face_coupled,
+      face_fitted_flip,
+      face_fitted_pic,
+      hybrid,
+      node_flip,
+      node_pic
+    };
+
+    static const Choice<Mapping> mappings;
+
+    enum class StressModel
+    {
+      full,
+      laplacian
+    };
+
+    /// What of a cell that the surface cuts is stiff.
+    enum class ElementWeighting
+    {
+      liquid_fraction,
+      full
+    };
+
     struct Parameters
     {
-      std::string              mapping           = "hybrid";
-      std::string              stress_model      = "full";
-      std::string              element_weighting = "liquid fraction";
-      std::string              solid_walls       = "cut cells";
+      Mapping                  mapping           = Mapping::hybrid;
+      StressModel              stress_model      = StressModel::full;
+      ElementWeighting         element_weighting = ElementWeighting::liquid_fraction;
       LinearSolver::Parameters solver;
 
       void
@@ -38,36 +63,36 @@ namespace treacle
     unsigned int
     advance(State<dim>         &state,
             const FaceFit<dim> &fit,
-            const double        dt,
+            const double        step,
             Reactions<dim>     *reactions = nullptr) const;
 
-    /// dt mu V of each cell, in the term that the stress model has.
+    /// step mu V of each cell, in the term that the stress model has.
     typename NodeSystem<dim>::Stiffness
-    stiffness(const LiquidDomain<dim> &domain, const double dt) const;
+    stiffness(const LiquidDomain<dim> &domain, const double step) const;
 
   private:
     unsigned int
     advance_face_fitted(State<dim>         &state,
                         const FaceFit<dim> &fit,
-                        const double        dt,
+                        const double        step,
                         Reactions<dim>     *reactions) const;
 
     unsigned int
     advance_hybrid(State<dim>         &state,
                    const FaceFit<dim> &fit,
-                   const double        dt,
+                   const double        step,
                    Reactions<dim>     *reactions) const;
 
     unsigned int
     advance_nodes(State<dim>         &state,
                   const FaceFit<dim> &fit,
-                  const double        dt,
+                  const double        step,
                   Reactions<dim>     *reactions) const;
 
     unsigned int
     advance_face_coupled(State<dim>         &state,
                          const FaceFit<dim> &fit,
-                         const double        dt,
+                         const double        step,
                          Reactions<dim>     *reactions) const;
 
     const Parameters prm;

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_fields_initial_state_h
+#define treacle_fields_initial_state_h
+
+#include <treacle/fields/liquid_domain.h>
+
+namespace treacle
+{
+  /// Throws a UserError on all ranks where a liquid or emitter is outside of the mesh or in
+  /// a solid, or an expression is not finite. Collective.
+  template <int dim>
+  void
+  check_bodies(const Mesh<dim> &mesh, const Scene<dim> &scene);
+
+  /// Throws a UserError on all ranks where liquid slips along oblique walls. @p file is the
+  /// mesh's. Collective.
+  template <int dim>
+  void
+  check_walls(const Mesh<dim> &mesh, const Scene<dim> &scene, const std::string &file);
+
+  /// The distance to the scene's liquids at t = 0; ghosts are up to date.
+  template <int dim>
+  void
+  set_initial_level_set(State<dim> &state, const Scene<dim> &scene);
+
+  /// The velocity of the scene's liquids at t = 0 on liquid faces. Throws a UserError on all
+  /// ranks where it is not finite. Collective.
+  template <int dim>
+  void
+  set_initial_velocity(State<dim> &state, const LiquidDomain<dim> &domain);
+} // namespace treacle
+
+#endif

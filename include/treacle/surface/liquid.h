@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_surface_liquid_h
+#define treacle_surface_liquid_h
+
+#include <treacle/fields/liquid_domain.h>
+#include <treacle/surface/surface_geometry.h>
+
+namespace treacle
+{
+  /// The state, and what follows from it, each made once: for a mesh, for a surface, for
+  /// where the liquid is.
+  template <int dim>
+  struct Liquid
+  {
+    std::shared_ptr<const MeshData<dim>>        mesh_data;
+    std::unique_ptr<State<dim>>                 state;
+    std::unique_ptr<const SurfaceGeometry<dim>> surface;
+    std::unique_ptr<const LiquidDomain<dim>>    domain; ///< null while the liquid moves
+
+    /// Measure where the liquid is now.
+    void
+    find(const typename LiquidDomain<dim>::Parameters &parameters)
+    {
+      domain = std::make_unique<const LiquidDomain<dim>>(parameters, *state, *mesh_data);
+    }
+  };
+} // namespace treacle
+
+#endif

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_surface_marker_motion_h
+#define treacle_surface_marker_motion_h
+
+#include <treacle/fields/state.h>
+
+namespace treacle
+{
+  /// Where the markers are after dt, still on the ranks they came from, with normals
+  /// turned and sheared as the surface is. Collective.
+  template <int dim>
+  std::vector<Marker<dim>>
+  moved_markers(const State<dim> &state, const NodeVector<dim> &velocity, const double dt);
+} // namespace treacle
+
+#endif

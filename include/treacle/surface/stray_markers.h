@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_surface_stray_markers_h
+#define treacle_surface_stray_markers_h
+
+#include <treacle/scene/scene.h>
+#include <treacle/surface/surface_geometry.h>
+
+namespace treacle
+{
+  /// Take away markers that no longer lie on the surface: 3/4 of a leaf from it, on the
+  /// box, in solids, or turned the wrong way; the others take the normal of phi where it
+  /// is smooth. Throws a UserError on all ranks
+  /// where that leaves too few. Collective.
+  template <int dim>
+  void
+  remove_stray_markers(State<dim>                 &state,
+                       const Scene<dim>           &scene,
+                       const SurfaceGeometry<dim> &surface);
+} // namespace treacle
+
+#endif

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exchange.h>
+#include <treacle/fields/initial_state.h>
+
+namespace treacle
+{
+  namespace
+  {
+    template <int dim>
+    using Distance = std::function<double(const Point<dim> &)>;
+
+    template <int dim>
+    void
+    check_finite(const Mesh<dim> &mesh, const std::string &name, const Distance<dim> &distance)
+    {
+      const auto &x      = mesh.node_position;
+      const bool  finite = std::all_of(x.begin(), x.end(), [&](const Point<dim> &p) {
+        return std::isfinite(distance(p));
+      });
+      require(Utilities::MPI::min(finite ? 1 : 0, mesh.communicator()) == 1,
+              name + ": the Expression is not finite somewhere in the box: mend it.");
+    }
+
+    /// Is some of a body in the box, and some of that outside solids?
+    template <int dim>
+    void
+    check_body(const Mesh<dim>     &mesh,
+               const Scene<dim>    &scene,
+               const std::string   &name,
+               const Distance<dim> &distance,
+               const double         time)
+    {
+      check_finite(mesh, name, distance);
+      bool in_box = false, outside_solids = false;
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        if (const Point<dim> &x = mesh.node_position[node]; distance(x) < 0)
+          {
+            in_box         = true;
+            outside_solids = outside_solids || scene.solid_distance(x, time) > 0;
+          }
+      const MPI_Comm &comm = mesh.communicator();
+      require(Utilities::MPI::max(in_box ? 1 : 0, comm) == 1,
+              name + (mesh.is_lattice() ?
+                        " lies outside the box, or is smaller than the cells: move it, "
+                        "change Domain/Lower corner and Upper corner, or raise "
+                        "Mesh/Surface level." :
+                        " lies outside the mesh, or is smaller than its cells: move it, "
+                        "or change Mesh/File."));
+      require(Utilities::MPI::max(outside_solids ? 1 : 0, comm) == 1,
+              name + " lies inside a solid: move one of them.");
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  check_bodies(const Mesh<dim> &mesh, const Scene<dim> &scene)
+  {
+    if (scene.has_solids())
+      check_finite<dim>(mesh, "Solids", [&](const Point<dim> &x) {
+        return scene.solid_distance(x, 0);
+      });
+    for (unsigned int k = 0; k < scene.n_liquids(); ++k)
+      check_body<dim>(
+        mesh,
+        scene,
+        "Liquid " + std::to_string(k + 1),
+        [&](const Point<dim> &x) { return scene.liquid_distance(k, x); },
+        0);
+    for (const Emitter<dim> &emitter : scene.emitters())
+      check_body<dim>(
+        mesh,
+        scene,
+        emitter.where,
+        [&](const Point<dim> &x) { return emitter.signed_distance(x); },
+        emitter.start_time);
+  }
+
+  template <int dim>
+  void
+  check_walls(const Mesh<dim> &mesh, const Scene<dim> &scene, const std::string &file)
+  {
+    const auto is_oblique = [](const unsigned char wall) { return wall == Walls<dim>::oblique; };
+    std::string error;
+    if (!scene.no_slip(Walls<dim>::oblique) &&
+        std::any_of(mesh.face_side.begin(),
+                    mesh.face_side.begin() + mesh.n_owned_faces(),
+                    is_oblique))
+      error = "Domain/Wall condition: liquid slips along walls normal to an axis only, and "
+              "the mesh \"" + file +
+              "\" has others; let the default be no slip, as in \"default: no slip; top: "
+              "free slip\".";
+    throw_first(mesh.communicator(), error);
+  }
+
+  template <int dim>
+  void
+  set_initial_level_set(State<dim> &state, const Scene<dim> &scene)
+  {
+    const Mesh<dim> &mesh = *state.mesh;
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      state.phi.local_element(node) = scene.liquid_distance(mesh.node_position[node]);
+    state.phi.update_ghost_values();
+  }
+
+  template <int dim>
+  void
+  set_initial_velocity(State<dim> &state, const LiquidDomain<dim> &domain)
+  {
+    const Mesh<dim> &mesh = domain.mesh;
+    std::string      error;
+    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
+      if (domain.is_liquid_face(f))
+        keep_error(error, [&] {
+          state.u.local_element(f) =
+            domain.scene.initial_velocity(mesh.face_centre[f]) * mesh.face_normal[f];
+        });
+    throw_first(mesh.communicator(), error);
+    state.u.update_ghost_values();
+  }
+
+#define INSTANTIATE(dim)                                                                    \
+  template void check_bodies(const Mesh<dim> &, const Scene<dim> &);                        \
+  template void check_walls(const Mesh<dim> &, const Scene<dim> &, const std::string &);    \
+  template void set_initial_level_set(State<dim> &, const Scene<dim> &);                    \
+  template void set_initial_velocity(State<dim> &, const LiquidDomain<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace treacle

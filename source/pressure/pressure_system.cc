@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/pressure/pressure_system.h>
+
+namespace treacle
+{
+  template <int dim>
+  PressureSystem<dim>::PressureSystem(const LinearSolver::Parameters &parameters,
+                                      const LiquidDomain<dim>        &domain)
+    : domain(domain)
+    , numbering(domain.mesh.cells, domain.is_pressure_cell)
+    , pockets(domain, numbering)
+    , matrix(projection_matrix())
+    , solver(parameters, "Pressure", *matrix)
+  {}
+
+  template <int dim>
+  void
+  PressureSystem<dim>::append_row(const LocalIndex          c,
+                                  const FaceFunction       &mobility,
+                                  std::vector<GlobalIndex> &columns,
+                                  std::vector<double>      &values) const
+  {
+    const Mesh<dim> &mesh = domain.mesh;
+    for (const LocalIndex f : mesh.cell_faces[c])
+      if (domain.is_liquid_face(f))
+        {
+          const double     flux = domain.open_fraction[f] * mesh.face_area[f];
+          const double     k    = flux * flux * mobility(f);
+          const LocalIndex other =
+            mesh.face_cells[f][0] == c ? mesh.face_cells[f][1] : mesh.face_cells[f][0];
+          values[0] += k;
+          if (numbering.number[other] != numbers::invalid_dof_index)
+            {
+              columns.push_back(numbering.number[other]);
+              values.push_back(-k);
+            }
+        }
+    if (values[0] == 0) // walled in on all sides
+      values[0] = 1;
+  }
+
+  template <int dim>
+  std::unique_ptr<TrilinosWrappers::SparseMatrix>
+  PressureSystem<dim>::assemble(const FaceFunction        &mobility,
+                                const std::vector<double> &diagonal) const
+  {
+    auto matrix = std::make_unique<TrilinosWrappers::SparseMatrix>(
+      rows(),
+      rows(),
+      domain.mesh.communicator(),
+      std::vector<unsigned int>(cells().size(), dim + 2));
+    std::vector<GlobalIndex> columns;
+    std::vector<double>      values;
+    for (unsigned int i = 0; i < cells().size(); ++i)
+      {
+        const GlobalIndex row = numbering.number[cells()[i]];
+        columns.assign(1, row);
+        values.assign(1, diagonal[i]);
+        append_row(cells()[i], mobility, columns, values);
+        matrix->set(row, columns.size(), columns.data(), values.data(), false);
+      }
+    matrix->compress(VectorOperation::insert);
+    return matrix;
+  }
+
+  template <int dim>
+  std::unique_ptr<const TrilinosWrappers::SparseMatrix>
+  PressureSystem<dim>::projection_matrix() const
+  {
+    auto matrix = assemble([this](const LocalIndex f) { return 1 / domain.face_mass[f]; },
+                           std::vector<double>(cells().size(), 0.));
+    for (const unsigned int i : pockets.pinned())
+      {
+        const GlobalIndex row = numbering.number[cells()[i]];
+        matrix->set(row, row, 2 * matrix->diag_element(row));
+      }
+    matrix->compress(VectorOperation::insert);
+    return matrix;
+  }
+
+  template <int dim>
+  unsigned int
+  PressureSystem<dim>::solve(Vector &q, Vector &b) const
+  {
+    pockets.balance(b);
+    // the matrix makes the pressure of the pinned cells 0, and so must the first guess; but
+    // which cells these are depends on the partition
+    pockets.take_off_pinned(q);
+    const unsigned int iterations = solver.solve(q, b);
+    pockets.take_off_mean(q);
+    return iterations;
+  }
+
+  template <int dim>
+  double
+  PressureSystem<dim>::outflow(const LiquidDomain<dim> &domain, const LocalIndex c, const Vector &u)
+  {
+    double flux = 0;
+    for (const LocalIndex f : domain.mesh.cell_faces[c])
+      {
+        const double sign  = domain.mesh.face_cells[f][0] == c ? 1 : -1;
+        const double alpha = domain.open_fraction[f];
+        flux += sign * domain.mesh.face_area[f] *
+                (alpha * u.local_element(f) + (1 - alpha) * domain.solid_velocity[f]);
+      }
+    return flux;
+  }
+
+  template <int dim>
+  double
+  PressureSystem<dim>::linear_outflow(const LocalIndex c, const Vector &u) const
+  {
+    double flux = 0;
+    for (const LocalIndex f : domain.mesh.cell_faces[c])
+      if (domain.is_liquid_face(f))
+        flux += (domain.mesh.face_cells[f][0] == c ? 1 : -1) * domain.open_fraction[f] *
+                domain.mesh.face_area[f] * u.local_element(f);
+    return flux;
+  }
+
+  template <int dim>
+  void
+  PressureSystem<dim>::set_walls(Vector &u) const
+  {
+    for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
+      if (domain.open_fraction[f] == 0)
+        u.local_element(f) = domain.solid_velocity[f];
+    u.update_ghost_values();
+  }
+
+  template <int dim>
+  void
+  PressureSystem<dim>::to_cells(const Vector &x, Vector &q) const
+  {
+    for (unsigned int i = 0; i < cells().size(); ++i)
+      q.local_element(cells()[i]) = x.local_element(i);
+    q.update_ghost_values();
+  }
+
+  template <int dim>
+  void
+  PressureSystem<dim>::push(const Vector &q, Vector &u) const
+  {
+    const Vector q_beyond = extended(q);
+    for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
+      if (domain.is_liquid_face(f))
+        u.local_element(f) +=
+          (is_unknown(f) ? force(f, q) : domain.theta[f] * force(f, q_beyond)) /
+          domain.face_mass[f];
+    u.update_ghost_values();
+  }
+
+  namespace
+  {
+    /// Sums for the slope q / phi by least squares.
+    struct Slope
+    {
+      Vector q_phi, phi_phi;
+
+      explicit Slope(const std::shared_ptr<const Utilities::MPI::Partitioner> &nodes)
+        : q_phi(nodes)
+        , phi_phi(nodes)
+      {}
+
+      void
+      update_ghost_values() const
+      {
+        q_phi.update_ghost_values();
+        phi_phi.update_ghost_values();
+      }
+
+      bool
+      is_known(const LocalIndex node) const
+      {
+        return phi_phi.local_element(node) != 0;
+      }
+    };
+
+    /// Over the pressure cells around each node.
+    template <int dim>
+    Slope
+    slope_at_nodes(const LiquidDomain<dim> &domain, const Vector &q)
+    {
+      const Mesh<dim> &mesh = domain.mesh;
+      Slope            slope(mesh.nodes);
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+          if (const LocalIndex c = mesh.node_cells[k]; domain.is_pressure_cell[c])
+            {
+              const double phi = domain.dual_distance[c];
+              slope.q_phi.local_element(node) += q.local_element(c) * phi;
+              slope.phi_phi.local_element(node) += phi * phi;
+            }
+      slope.update_ghost_values();
+      return slope;
+    }
+
+    /// Nodes without a pressure cell around them ask their neighbours.
+    template <int dim>
+    Slope
+    continued(const Mesh<dim> &mesh, const Slope &slope)
+    {
+      Slope result = slope;
+      result.q_phi.zero_out_ghost_values();
+      result.phi_phi.zero_out_ghost_values();
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        if (!slope.is_known(node))
+          for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+            for (const LocalIndex other : mesh.cell_nodes[mesh.node_cells[k]])
+              {
+                result.q_phi.local_element(node) += slope.q_phi.local_element(other);
+                result.phi_phi.local_element(node) += slope.phi_phi.local_element(other);
+              }
+      result.update_ghost_values();
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  Vector
+  PressureSystem<dim>::extended(const Vector &q) const
+  {
+    const Mesh<dim> &mesh   = domain.mesh;
+    const Slope      slope  = continued(mesh, slope_at_nodes(domain, q));
+    Vector           result = q;
+    result.zero_out_ghost_values();
+    for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+      if (!domain.is_pressure_cell[c])
+        {
+          double a = 0, b = 0;
+          for (const LocalIndex node : mesh.cell_nodes[c])
+            {
+              a += slope.q_phi.local_element(node);
+              b += slope.phi_phi.local_element(node);
+            }
+          result.local_element(c) = b > 0 ? a / b * domain.dual_distance[c] : 0.;
+        }
+    result.update_ghost_values();
+    return result;
+  }
+
+  template <int dim>
+  double
+  PressureSystem<dim>::maximum_divergence(const State<dim> &state, const LiquidDomain<dim> &domain)
+  {
+    double largest = 0;
+    for (LocalIndex c = 0; c < domain.mesh.n_owned_cells(); ++c)
+      if (domain.is_pressure_cell[c])
+        largest =
+          std::max(largest, std::abs(outflow(domain, c, state.u)) / domain.mesh.cell_volume[c]);
+    return Utilities::MPI::max(largest, domain.mesh.communicator());
+  }
+
+  template class PressureSystem<2>;
+  template class PressureSystem<3>;
+} // namespace treacle

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/fields/gradients.h>
+#include <treacle/mesh/tracer.h>
+#include <treacle/surface/marker_motion.h>
+
+namespace treacle
+{
+  namespace
+  {
+    /// Nodal gradients of the velocity, evaluated at points: [point * dim * dim + component
+    /// * dim + direction].
+    template <int dim>
+    std::vector<double>
+    velocity_gradients(const Mesh<dim>               &mesh,
+                       const NodeVector<dim>         &velocity,
+                       const std::vector<Point<dim>> &x)
+    {
+      std::vector<NodeVector<dim>> gradients;
+      gradients.reserve(dim); // a vector of them that grows would lose their ghosts
+      for (const Vector &component : velocity.component)
+        gradients.push_back(nodal_gradient(mesh, component));
+      std::vector<NodeField<dim>> fields;
+      for (const NodeVector<dim> &gradient : gradients)
+        for (const Vector &component : gradient.component)
+          fields.push_back({&component});
+      return Tracer<dim>(mesh).evaluate(x, fields);
+    }
+
+    /// dn/dt = -(grad u)^T n by the implicit midpoint rule; the length does not matter.
+    template <int dim>
+    Tensor<1, dim>
+    turned(const Tensor<1, dim> &old, const double *gradient, const double dt)
+    {
+      Tensor<2, dim> half;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          half[j][i] = 0.5 * dt * gradient[i * dim + j];
+      const Tensor<1, dim> normal =
+        invert(Tensor<2, dim>(unit_symmetric_tensor<dim>()) + half) * (old - half * old);
+      const double length = normal.norm();
+      return std::isfinite(length) && length > 0 ? normal / length : old;
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<Marker<dim>>
+  moved_markers(const State<dim> &state, const NodeVector<dim> &velocity, const double dt)
+  {
+    const Mesh<dim> &mesh = *state.mesh;
+    if (Utilities::MPI::max<unsigned int>(state.markers.size(), mesh.communicator()) == 0)
+      return {};
+    const std::vector<Point<dim>> from = positions(state.markers);
+    const std::vector<Point<dim>> to   = Tracer<dim>(mesh).trace(from, velocity, dt);
+    std::vector<Point<dim>>       middle(from.size());
+    for (unsigned int k = 0; k < from.size(); ++k)
+      middle[k] = from[k] + 0.5 * (to[k] - from[k]);
+    const std::vector<double> gradients = velocity_gradients(mesh, velocity, middle);
+    std::vector<Marker<dim>>  moved(from.size());
+    for (unsigned int k = 0; k < from.size(); ++k)
+      moved[k] = {to[k], turned(state.markers[k].normal, &gradients[k * dim * dim], dt)};
+    return moved;
+  }
+
+  template std::vector<Marker<2>>
+  moved_markers(const State<2> &, const NodeVector<2> &, const double);
+  template std::vector<Marker<3>>
+  moved_markers(const State<3> &, const NodeVector<3> &, const double);
+} // namespace treacle
