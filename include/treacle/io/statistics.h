@@ -4,23 +4,12 @@
 #ifndef treacle_io_statistics_h
 #define treacle_io_statistics_h
 
-#include <treacle/dynamics/dynamics.h>
+#include <treacle/dynamics/step_info.h>
 #include <treacle/io/probes.h>
+#include <treacle/io/table_row.h>
 
 namespace treacle
 {
-  /// What a step reports beside the state it leaves.
-  template <int dim>
-  struct StepInfo
-  {
-    double       dt                   = 0; ///< s
-    bool         rebuilt              = false; ///< the mesh is new
-    double       emitted              = 0;     ///< volume from emitters (m^dim)
-    double       wall_time            = 0;     ///< s
-
-    typename Dynamics<dim>::Info dynamics;
-  };
-
   /// The table `statistics` in the output directory, one row a step. Rows are
   /// appended, so a kill loses at most a part of the last, which is dropped
   /// when the run is resumed.
@@ -28,14 +17,6 @@ namespace treacle
   class Statistics
   {
   public:
-    /// One number of a row, under the name of its column.
-    struct Entry
-    {
-      std::string name;
-      double      value;
-      bool        is_count;
-    };
-
     /// Starts a new table. The directory exists.
     Statistics(const MPI_Comm    &comm,
                const std::string &directory,
@@ -46,7 +27,8 @@ namespace treacle
     void
     resume(const State<dim> &state, const LiquidDomain<dim> &domain);
 
-    /// Without loads zeros are written. Collective; throws a UserError on all ranks if the file cannot be written.
+    /// Without loads zeros are written. Collective; throws a UserError on all ranks if
+    /// the file cannot be written.
     void
     add_row(const State<dim>        &state,
             const LiquidDomain<dim> &domain,
@@ -65,15 +47,15 @@ namespace treacle
     void
     append();
 
-    MPI_Comm           comm;
-    std::string        path;
-    const Probes<dim>  probes;
-    bool               has_file     = false;
-    bool               has_first    = false;
-    double             first_volume = 0; ///< of the first row (m^dim)
-    double             emitted      = 0; ///< since the start (m^dim)
-    unsigned int       n_rebuilds   = 0;
-    std::vector<Entry> row;
+    MPI_Comm          comm;
+    std::string       path;
+    const Probes<dim> probes;
+    bool              has_file     = false;
+    bool              has_first    = false;
+    double            first_volume = 0; ///< of the first row (m^dim)
+    double            emitted      = 0; ///< since the start (m^dim)
+    unsigned int      n_rebuilds   = 0;
+    TableRow          row;
   };
 } // namespace treacle
 
