@@ -35,13 +35,9 @@ namespace
     return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   }
 
-  Options
-  read_command_line(const int argc, const char *const *argv)
+  void
+  add_options(CLI::App &app, Options &options)
   {
-    Options  options;
-    CLI::App app(
-      "Treacle simulates viscous liquids with free surfaces on adaptive meshes.",
-      "treacle");
     app.add_option("FILE", options.file, "Parameter file")->option_text("FILE.prm");
     app.add_option("--set", options.settings, "Set a parameter; may be repeated")
       ->allow_extra_args(false)
@@ -55,6 +51,16 @@ namespace
       options.print_parameters,
       "Print all parameters with their documentation; with FILE, as it sets them");
     app.set_version_flag("--version", "Treacle " TREACLE_VERSION);
+  }
+
+  Options
+  read_command_line(const int argc, const char *const *argv)
+  {
+    Options  options;
+    CLI::App app(
+      "Treacle simulates viscous liquids with free surfaces on adaptive meshes.",
+      "treacle");
+    add_options(app, options);
     try
       {
         app.parse(argc, argv);

@@ -65,8 +65,8 @@ namespace tests
       parse<dim>(text, n_solids, n_liquids, n_emitters, n_probes);
     parameters.output_directory =
       "run_" + std::to_string(dim) + "d_" + std::to_string(Utilities::MPI::n_mpi_processes(comm));
-    parameters.mesh_writer.format    = "none";
-    parameters.surface_writer.format = "none";
+    parameters.mesh_writer.format    = MeshFormat::none;
+    parameters.surface_writer.format = SurfaceFormat::none;
     parameters.checkpoint.interval   = 0;
     Simulator<dim>(comm, parameters, "").run(false);
     MPI_Barrier(comm);

@@ -54,7 +54,9 @@ namespace treacle
 
       /// The facets of f = 0 where g < 0; @p zero says which of the two f is.
       void
-      add_facets(const VertexValues<dim> &f, const VertexValues<dim> &g, const VertexKey zero)
+      add_facets(const VertexValues<dim> &f,
+                 const VertexValues<dim> &g,
+                 const VertexKey          zero)
       {
         const Facets<dim> facets = surface_facets<dim>(f);
         if (facets.n == 0)
@@ -71,8 +73,8 @@ namespace treacle
             if (is_negative(f, g, p))
               part.push_back(vertex({{p[0], p[1]}}, f, g, zero));
             if (i < n_edges && is_negative(f, g, p) != is_negative(f, g, q))
-              part.push_back(
-                vertex({{p[0], p[1], q[0] == p[0] || q[0] == p[1] ? q[1] : q[0]}}, f, g, 3));
+              part.push_back(vertex(
+                {{p[0], p[1], q[0] == p[0] || q[0] == p[1] ? q[1] : q[0]}}, f, g, 3));
           }
         for (unsigned int k = 0; k + dim <= part.size(); ++k)
           {
@@ -89,7 +91,9 @@ namespace treacle
       /// Whether g < 0 where f = 0 on an edge. The same product decides, up to its sign,
       /// when f and g change their parts.
       bool
-      is_negative(const VertexValues<dim> &f, const VertexValues<dim> &g, const Edge &e) const
+      is_negative(const VertexValues<dim> &f,
+                  const VertexValues<dim> &g,
+                  const Edge              &e) const
       {
         const unsigned char a = key(e[0]) < key(e[1]) ? e[0] : e[1];
         const unsigned char b = e[0] + e[1] - a;
@@ -108,21 +112,14 @@ namespace treacle
         std::sort(corners.begin(), corners.end(), [&](const auto i, const auto j) {
           return key(i) < key(j);
         });
-        const unsigned int    n = corners.size();
-        std::array<double, 3> weight{};
-        double                sum = 0;
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            const unsigned char j = corners[(i + 1) % n], k = corners[(i + 2) % n];
-            weight[i] = n == 2 ? std::abs(f[j]) : std::abs(f[j] * g[k] - f[k] * g[j]);
-            sum += weight[i];
-          }
+        const std::array<double, 3> weight = weights(corners, f, g);
+        const double                sum    = weight[0] + weight[1] + weight[2];
 
         Vertex         result{{{no_key, no_key, no_key, zero}}, {}};
         unsigned int   n_keys = 0;
         Point<dim>     x;
         Tensor<1, dim> v;
-        for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int i = 0; i < corners.size(); ++i)
           if (weight[i] > 0)
             {
               const LocalIndex node = mesh.cell_nodes[cell][corners[i]];
@@ -130,17 +127,31 @@ namespace treacle
               x += weight[i] / sum * mesh.node_position[node];
               v += weight[i] / sum * state.v.value(node);
             }
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            result.values[d]     = x[d];
+            result.values[3 + d] = v[d];
+          }
         const auto [it, is_new] = index.emplace(result.keys, surface.vertices.size());
         if (is_new)
-          {
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                result.values[d]     = x[d];
-                result.values[3 + d] = v[d];
-              }
-            surface.vertices.push_back(result);
-          }
+          surface.vertices.push_back(result);
         return it->second;
+      }
+
+      /// Of two corners where f = 0, or of three where f = g = 0, times any factor.
+      static std::array<double, 3>
+      weights(const std::vector<unsigned char> &corners,
+              const VertexValues<dim>          &f,
+              const VertexValues<dim>          &g)
+      {
+        const unsigned int    n = corners.size();
+        std::array<double, 3> weight{};
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const unsigned char j = corners[(i + 1) % n], k = corners[(i + 2) % n];
+            weight[i] = n == 2 ? std::abs(f[j]) : std::abs(f[j] * g[k] - f[k] * g[j]);
+          }
+        return weight;
       }
 
       static constexpr VertexKey no_key = LiquidSurface<dim>::no_key;
@@ -152,19 +163,54 @@ namespace treacle
     };
   } // namespace
 
-  // Vertices of several ranks are welded and in the order of their keys. Facets are in
-  // the order of the cells, for each rank has a range of those.
+  namespace
+  {
+    /// All vertices in the order of their keys, each once.
+    template <typename Vertex>
+    std::vector<Vertex>
+    weld(const PerRank<Vertex> &parts)
+    {
+      std::vector<Vertex> result;
+      for (const auto &part : parts)
+        result.insert(result.end(), part.begin(), part.end());
+      std::sort(result.begin(), result.end(), [](const Vertex &p, const Vertex &q) {
+        return p.keys < q.keys;
+      });
+      const auto end =
+        std::unique(result.begin(), result.end(), [](const Vertex &p, const Vertex &q) {
+          return p.keys == q.keys;
+        });
+      result.erase(end, result.end());
+      return result;
+    }
+
+    /// Where the vertices of a part are among all.
+    template <typename Vertex>
+    std::vector<std::int32_t>
+    places(const std::vector<Vertex> &part, const std::vector<Vertex> &all)
+    {
+      std::vector<std::int32_t> result;
+      for (const Vertex &vertex : part)
+        result.push_back(std::lower_bound(all.begin(),
+                                          all.end(),
+                                          vertex,
+                                          [](const Vertex &p, const Vertex &q) {
+                                            return p.keys < q.keys;
+                                          }) -
+                         all.begin());
+      return result;
+    }
+  } // namespace
+
+  // Facets are in the order of the cells, for each rank has a range of those.
   template <int dim>
   LiquidSurface<dim>
   gather_liquid_surface(const State<dim> &state, const LiquidDomain<dim> &domain)
   {
-    using Vertex = typename LiquidSurface<dim>::Vertex;
-    using Facet  = typename LiquidSurface<dim>::Facet;
-
-    const MPI_Comm    &comm    = state.mesh->communicator();
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
-    PerRank<Vertex>    vertices(n_ranks);
-    PerRank<Facet>     facets(n_ranks);
+    const MPI_Comm    &comm = state.mesh->communicator();
+    const unsigned int n    = Utilities::MPI::n_mpi_processes(comm);
+    PerRank<typename LiquidSurface<dim>::Vertex> vertices(n);
+    PerRank<typename LiquidSurface<dim>::Facet>  facets(n);
     {
       LiquidSurface<dim> own = std::move(OwnSurface<dim>(state, domain).surface);
       vertices[0]            = std::move(own.vertices);
@@ -174,25 +220,14 @@ namespace treacle
     facets   = send_and_receive(comm, facets);
 
     LiquidSurface<dim> result;
-    for (const auto &of_rank : vertices)
-      result.vertices.insert(result.vertices.end(), of_rank.begin(), of_rank.end());
-    const auto is_before = [](const Vertex &p, const Vertex &q) { return p.keys < q.keys; };
-    const auto is_same   = [](const Vertex &p, const Vertex &q) { return p.keys == q.keys; };
-    std::sort(result.vertices.begin(), result.vertices.end(), is_before);
-    result.vertices.erase(std::unique(result.vertices.begin(), result.vertices.end(), is_same),
-                          result.vertices.end());
-    for (unsigned int r = 0; r < n_ranks; ++r)
+    result.vertices = weld(vertices);
+    for (unsigned int r = 0; r < n; ++r)
       {
-        std::vector<std::int32_t> index;
-        for (const Vertex &vertex : vertices[r])
-          index.push_back(
-            std::lower_bound(
-              result.vertices.begin(), result.vertices.end(), vertex, is_before) -
-            result.vertices.begin());
-        for (Facet facet : facets[r])
+        const std::vector<std::int32_t> place = places(vertices[r], result.vertices);
+        for (auto facet : facets[r])
           {
             for (auto &i : facet)
-              i = index[i];
+              i = place[i];
             result.facets.push_back(facet);
           }
       }

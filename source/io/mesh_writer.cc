@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/choice.h>
 #include <treacle/base/exchange.h>
 #include <treacle/base/files.h>
 #include <treacle/io/appended_data.h>
@@ -21,12 +22,14 @@ namespace treacle
   MeshWriter<dim>::Parameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Output");
-    prm.add_parameter(
-      "Mesh format",
-      format,
-      "Files of the mesh with level set (m), velocity (m/s), pressure (Pa), "
-      "viscosity (Pa s), liquid fraction and rank, one set a frame.",
-      Patterns::Selection("vtu|xdmf|none"));
+    add_choice(prm,
+               "Mesh format",
+               format,
+               "Files of the mesh with level set (m), velocity (m/s), pressure (Pa), "
+               "viscosity (Pa s), liquid fraction and rank, one set a frame.",
+               {{"vtu", MeshFormat::vtu},
+                {"xdmf", MeshFormat::xdmf},
+                {"none", MeshFormat::none}});
     prm.leave_subsection();
   }
 
@@ -147,7 +150,6 @@ namespace treacle
       });
       write_pvd(comm, directory + "/mesh.pvd", name + ".pvtu", state.time);
     }
-
   } // namespace
 
   template <int dim>
@@ -157,12 +159,12 @@ namespace treacle
                          const std::string       &directory,
                          const unsigned int       frame) const
   {
-    if (format == "none")
+    if (format == MeshFormat::none)
       return;
     const std::string frames = directory + "/frames";
     create_directory(state.mesh->communicator(), frames);
     const std::string name = "mesh_" + Utilities::int_to_string(frame, 5);
-    if (format == "vtu")
+    if (format == MeshFormat::vtu)
       write_vtu(state, domain, frames, name);
     else
       write_xdmf(state, domain, frames, name);

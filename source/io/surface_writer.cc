@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/choice.h>
 #include <treacle/base/files.h>
 #include <treacle/io/appended_data.h>
 #include <treacle/io/liquid_surface.h>
@@ -10,15 +11,30 @@
 
 namespace treacle
 {
+  namespace
+  {
+    /// The names are the endings of the files too.
+    const Choice<SurfaceFormat> &
+    surface_formats()
+    {
+      static const Choice<SurfaceFormat> formats{{"ply", SurfaceFormat::ply},
+                                                 {"obj", SurfaceFormat::obj},
+                                                 {"vtp", SurfaceFormat::vtp},
+                                                 {"none", SurfaceFormat::none}};
+      return formats;
+    }
+  } // namespace
+
   template <int dim>
   void
   SurfaceWriter<dim>::Parameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Output");
-    prm.add_parameter("Surface format",
-                      format,
-                      "Files of the surface with its velocity (m, m/s), one a frame.",
-                      Patterns::Selection("ply|obj|vtp|none"));
+    add_choice(prm,
+               "Surface format",
+               format,
+               "Files of the surface with its velocity (m, m/s), one a frame.",
+               surface_formats());
     prm.leave_subsection();
   }
 
@@ -104,17 +120,18 @@ namespace treacle
                             const std::string       &directory,
                             const unsigned int       frame) const
   {
-    if (format == "none")
+    if (format == SurfaceFormat::none)
       return;
     const MPI_Comm &comm = state.mesh->communicator();
     create_directory(comm, directory + "/frames");
     const LiquidSurface<dim> surface = gather_liquid_surface(state, domain);
-    const std::string        path =
-      directory + "/frames/surface_" + Utilities::int_to_string(frame, 5) + "." + format;
+    const std::string        path    = directory + "/frames/surface_" +
+                             Utilities::int_to_string(frame, 5) + "." +
+                             surface_formats().name(format);
     replace_file(comm, path, [&](std::ostream &out) {
-      if (format == "ply")
+      if (format == SurfaceFormat::ply)
         write_ply(out, surface);
-      else if (format == "obj")
+      else if (format == SurfaceFormat::obj)
         write_obj(out, surface);
       else
         write_vtp(out, surface);

@@ -65,63 +65,74 @@ namespace treacle
         else
           finest = finest && octree.leaves()[leaf].size == 2;
       }
-    for (const double is_finest :
-         ask(comm,
-             octree.owner_ranks(elsewhere),
-             elsewhere,
-             1,
-             [&](const Point<dim> &x, double *answer) {
-               const LocalIndex leaf = octree.leaf_containing(x);
-               *answer = leaf != invalid && octree.leaves()[leaf].size == 2;
-             }))
+    for (const double is_finest : ask(comm,
+                                      octree.owner_ranks(elsewhere),
+                                      elsewhere,
+                                      1,
+                                      [&](const Point<dim> &x, double *answer) {
+                                        const LocalIndex leaf = octree.leaf_containing(x);
+                                        *answer               = leaf != invalid &&
+                                                  octree.leaves()[leaf].size == 2;
+                                      }))
       finest = finest && is_finest == 1;
     return Utilities::MPI::min(finest ? 1 : 0, comm) == 1;
   }
+
+  namespace
+  {
+    /// Which of the keys @p asked does any rank hold? Collective.
+    std::vector<bool>
+    held_somewhere(const MPI_Comm               &comm,
+                   const std::vector<VertexKey> &held,
+                   const std::vector<VertexKey> &asked)
+    {
+      const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+      PerRank<VertexKey> told(n_ranks), questions(n_ranks);
+      for (const VertexKey key : held)
+        told[meeting_rank(key, n_ranks)].push_back(key);
+      for (const VertexKey key : asked)
+        questions[meeting_rank(key, n_ranks)].push_back(key);
+      std::unordered_set<VertexKey> known;
+      for (const auto &list : send_and_receive(comm, told))
+        known.insert(list.begin(), list.end());
+      questions = send_and_receive(comm, questions);
+      PerRank<char> answers(n_ranks);
+      for (unsigned int r = 0; r < n_ranks; ++r)
+        for (const VertexKey key : questions[r])
+          answers[r].push_back(known.count(key) > 0);
+      const auto                heard = send_and_receive(comm, answers);
+      std::vector<unsigned int> next(n_ranks, 0);
+      std::vector<bool>         result;
+      for (const VertexKey key : asked)
+        {
+          const unsigned int r = meeting_rank(key, n_ranks);
+          result.push_back(heard[r][next[r]++] != 0);
+        }
+      return result;
+    }
+  } // namespace
 
   template <int dim>
   std::vector<bool>
   Band<dim>::touches(const std::vector<Leaf<dim>> &leaves) const
   {
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
-    const int          root    = 2 << finest_level;
+    const int root = 2 << finest_level;
     // ranks without leaves of this level do not know it
     const unsigned int level =
       Utilities::MPI::max(leaves.empty() ? 0u : leaves.front().level, comm);
     const int size = root >> level;
 
-    std::vector<VertexKey> keys;
+    std::vector<VertexKey> of_cubes, of_leaves;
     for (LatticePoint<dim> cube : cubes)
       {
         for (int &i : cube)
           i &= ~(size - 1);
-        keys.push_back(pack<dim>(cube));
+        of_cubes.push_back(pack<dim>(cube));
       }
-    sort_unique(keys);
-    PerRank<VertexKey> told(n_ranks), asked(n_ranks);
-    for (const VertexKey key : keys)
-      told[meeting_rank(key, n_ranks)].push_back(key);
+    sort_unique(of_cubes);
     for (const Leaf<dim> &leaf : leaves)
-      {
-        const VertexKey key = pack<dim>(leaf.origin);
-        asked[meeting_rank(key, n_ranks)].push_back(key);
-      }
-    std::unordered_set<VertexKey> known;
-    for (const auto &list : send_and_receive(comm, told))
-      known.insert(list.begin(), list.end());
-    PerRank<char> answers(n_ranks);
-    const auto    questions = send_and_receive(comm, asked);
-    for (unsigned int r = 0; r < n_ranks; ++r)
-      for (const VertexKey key : questions[r])
-        answers[r].push_back(known.count(key) > 0);
-    const auto                heard = send_and_receive(comm, answers);
-    std::vector<unsigned int> next(n_ranks, 0);
-    std::vector<bool>         result;
-    for (const Leaf<dim> &leaf : leaves)
-      {
-        const unsigned int r = meeting_rank(pack<dim>(leaf.origin), n_ranks);
-        result.push_back(heard[r][next[r]++] != 0);
-      }
-    return result;
+      of_leaves.push_back(pack<dim>(leaf.origin));
+    return held_somewhere(comm, of_cubes, of_leaves);
   }
 
   template class Band<2>;

@@ -40,7 +40,8 @@ namespace treacle
     class FaceFiller
     {
     public:
-      FaceFiller(const Octree<dim> &octree, std::vector<typename Lattice<dim>::Cell> &cells)
+      FaceFiller(const Octree<dim>                        &octree,
+                 std::vector<typename Lattice<dim>::Cell> &cells)
         : octree(octree)
         , cells(cells)
       {}
@@ -69,10 +70,10 @@ namespace treacle
       }
 
       void
-      fill_edge(const Leaf<dim>    &leaf,
-                const unsigned int  axis,
-                const bool          upper,
-                const Neighbour     other)
+      fill_edge(const Leaf<dim>   &leaf,
+                const unsigned int axis,
+                const bool         upper,
+                const Neighbour    other)
       {
         if constexpr (dim == 2)
           {
@@ -105,23 +106,44 @@ namespace treacle
                   const bool         upper,
                   const Neighbour    other);
 
-      const Octree<dim>                       &octree;
+      /// A face of a leaf in 3D; edge q runs from corner q to corner q+1.
+      struct Square
+      {
+        Square(const Leaf<3> &leaf, const unsigned int axis, const bool upper);
+
+        const Leaf<3>                 &leaf;
+        unsigned int                   axis, u, w; ///< u and w lie in the face
+        int                            side;       ///< of the leaf, -1 or 1
+        std::array<LatticePoint<3>, 4> corner;
+      };
+
+      /// The two cells over a face that is a quarter of a coarser leaf's.
+      void
+      fill_halves(const Square &square);
+
+      /// Does a finer leaf beside the edges of a face split them?
+      std::array<bool, 4>
+      find_split(const Square &square, const Neighbour other) const;
+
+      /// The cells around the line from the centre to the face, or to the other leaf's.
+      void
+      fill_ring(const Square &square, const Neighbour other);
+
+      const Octree<dim>                        &octree;
       std::vector<typename Lattice<dim>::Cell> &cells;
     };
 
     template <>
-    void
-    FaceFiller<3>::fill_square(const Leaf<3>     &leaf,
-                               const unsigned int axis,
-                               const bool         upper,
-                               const Neighbour    other)
+    FaceFiller<3>::Square::Square(const Leaf<3>     &leaf,
+                                  const unsigned int axis,
+                                  const bool         upper)
+      : leaf(leaf)
+      , axis(axis)
+      , u((axis + 1) % 3)
+      , w((axis + 2) % 3)
+      , side(upper ? 1 : -1)
     {
-      const unsigned int    u = (axis + 1) % 3, w = (axis + 2) % 3;
-      const int             s = leaf.size;
-      const LatticePoint<3> c = leaf.centre();
-
-      // corners around the face; edge q runs from corner q to corner q+1
-      std::array<LatticePoint<3>, 4> corner;
+      const int s = leaf.size;
       for (unsigned int q = 0; q < 4; ++q)
         {
           corner[q] = leaf.origin;
@@ -129,36 +151,53 @@ namespace treacle
           corner[q][u] += (q == 1 || q == 2) ? s : 0;
           corner[q][w] += (q == 2 || q == 3) ? s : 0;
         }
+    }
 
-      if (other == Neighbour::coarser)
-        {
-          // the diagonal joins the corners of even parity on the grid of size s
-          const unsigned int q =
-            (corner[0][u] / s + corner[0][w] / s) % 2 == 0 ? 0 : 1;
-          add({{c, corner[q], corner[q + 1], corner[q + 2]}});
-          add({{c, corner[q], corner[q + 2], corner[(q + 3) % 4]}});
-          return;
-        }
+    template <>
+    void
+    FaceFiller<3>::fill_halves(const Square &square)
+    {
+      // the diagonal joins the corners of even parity on the grid of the leaf's size
+      const auto           &corner = square.corner;
+      const LatticePoint<3> c      = square.leaf.centre();
+      const int             s      = square.leaf.size;
+      const unsigned int    q =
+        (corner[0][square.u] / s + corner[0][square.w] / s) % 2 == 0 ? 0 : 1;
+      add({{c, corner[q], corner[q + 1], corner[q + 2]}});
+      add({{c, corner[q], corner[q + 2], corner[(q + 3) % 4]}});
+    }
 
+    template <>
+    std::array<bool, 4>
+    FaceFiller<3>::find_split(const Square &square, const Neighbour other) const
+    {
       std::array<bool, 4> split;
       for (unsigned int q = 0; q < 4; ++q)
         {
-          LatticePoint<3> beside{}, across{}, diagonal{};
-          beside[q % 2 == 0 ? w : u] = (q == 0 || q == 3) ? -1 : 1;
-          across[axis]               = upper ? 1 : -1;
-          diagonal                   = beside;
-          diagonal[axis]             = across[axis];
-          split[q] = other == Neighbour::finer ||
-                     octree.neighbour(leaf, beside) == Neighbour::finer ||
-                     octree.neighbour(leaf, diagonal) == Neighbour::finer;
-        }
+          LatticePoint<3> beside{};
+          beside[q % 2 == 0 ? square.w : square.u] = (q == 0 || q == 3) ? -1 : 1;
+          LatticePoint<3> diagonal                 = beside;
+          diagonal[square.axis]                    = square.side;
 
-      // what the ring around the axis is joined to
-      LatticePoint<3> far = midpoint<3>(corner[0], corner[2]);
+          split[q] = other == Neighbour::finer ||
+                     octree.neighbour(square.leaf, beside) == Neighbour::finer ||
+                     octree.neighbour(square.leaf, diagonal) == Neighbour::finer;
+        }
+      return split;
+    }
+
+    template <>
+    void
+    FaceFiller<3>::fill_ring(const Square &square, const Neighbour other)
+    {
+      const auto               &corner = square.corner;
+      const std::array<bool, 4> split  = find_split(square, other);
+      const LatticePoint<3>     c      = square.leaf.centre();
+      LatticePoint<3>           far    = midpoint<3>(corner[0], corner[2]);
       if (other == Neighbour::same)
         {
           far = c;
-          far[axis] += s;
+          far[square.axis] += square.leaf.size;
         }
 
       std::array<LatticePoint<3>, 8> ring;
@@ -166,8 +205,8 @@ namespace treacle
       for (unsigned int q = 0; q < 4; ++q)
         {
           const unsigned int    before = (q + 3) % 4;
-          const LatticePoint<3> e1 = midpoint<3>(corner[before], corner[q]);
-          const LatticePoint<3> e2 = midpoint<3>(corner[q], corner[(q + 1) % 4]);
+          const LatticePoint<3> e1     = midpoint<3>(corner[before], corner[q]);
+          const LatticePoint<3> e2     = midpoint<3>(corner[q], corner[(q + 1) % 4]);
           if (other != Neighbour::finer && split[before] && split[q])
             {
               add({{corner[q], e1, e2, c}});
@@ -181,6 +220,20 @@ namespace treacle
         }
       for (unsigned int i = 0; i < n; ++i)
         add({{c, far, ring[i], ring[(i + 1) % n]}});
+    }
+
+    template <>
+    void
+    FaceFiller<3>::fill_square(const Leaf<3>     &leaf,
+                               const unsigned int axis,
+                               const bool         upper,
+                               const Neighbour    other)
+    {
+      const Square square(leaf, axis, upper);
+      if (other == Neighbour::coarser)
+        fill_halves(square);
+      else
+        fill_ring(square, other);
     }
   } // namespace
 
@@ -203,60 +256,10 @@ namespace treacle
     return lattice;
   }
 
-  template <int dim>
-  double
-  lattice_weight(const Octree<dim> &octree, const LatticePoint<dim> &vertex)
-  {
-    using W = LatticeWeights<dim>;
-
-    // the largest power of two that divides all coordinates
-    int bits = 1 << 20;
-    for (const int x : vertex)
-      bits |= x;
-    const int s       = bits & -bits;
-    const double unit = octree.finest_size() / 2;
-
-    const auto squared_half_edge = [&](const int size) {
-      return (0.5 * size * unit) * (0.5 * size * unit);
-    };
-
-    // a centre of a leaf of edge 2s, or a midpoint of one of its faces or
-    // edges, or a corner of leaves that are not larger than s
-    for (unsigned int k = 0; k < (1u << dim); ++k)
-      {
-        LatticePoint<dim> origin;
-        unsigned int      n_odd = 0, n_box = 0;
-        bool              inside = true;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const bool odd = (vertex[d] / s) % 2 == 1;
-            n_odd += odd;
-            n_box += !odd && (vertex[d] == 0 || vertex[d] == octree.extent()[d]);
-            origin[d] = vertex[d] - (odd ? s : (k >> d & 1) * 2 * s);
-            inside    = inside && origin[d] >= 0 && origin[d] < octree.extent()[d];
-          }
-        if (!inside)
-          continue;
-        const LocalIndex leaf = octree.leaf_at(origin);
-        if (leaf == invalid || octree.leaves()[leaf].size != 2 * s)
-          continue;
-        const double factor = n_odd == dim ? W::centre :
-                              dim == 3 && n_odd == 2 && n_box == 1 ?
-                                             W::box_centre :
-                                             W::hanging;
-        return factor * squared_half_edge(2 * s);
-      }
-    return 0;
-  }
-
   template struct Lattice<2>;
   template struct Lattice<3>;
   template Lattice<2>
   make_lattice(const Octree<2> &);
   template Lattice<3>
   make_lattice(const Octree<3> &);
-  template double
-  lattice_weight<2>(const Octree<2> &, const LatticePoint<2> &);
-  template double
-  lattice_weight<3>(const Octree<3> &, const LatticePoint<3> &);
 } // namespace treacle

@@ -6,6 +6,7 @@
 #include <treacle/mesh/ghost_cells.h>
 #include <treacle/mesh/lattice.h>
 #include <treacle/mesh/lattice_mesh.h>
+#include <treacle/mesh/lattice_weight.h>
 
 namespace treacle
 {

@@ -3,6 +3,7 @@
 
 #include <treacle/base/exchange.h>
 #include <treacle/scene/parameter_file.h>
+#include <treacle/scene/parameter_lines.h>
 
 #include <fstream>
 #include <regex>
@@ -12,22 +13,7 @@ namespace treacle
 {
   namespace
   {
-    /// A line that is not empty, continuation lines joined.
-    struct Line
-    {
-      enum Kind
-      {
-        subsection,
-        end,
-        set,
-        other
-      };
-
-      unsigned int             first, last; ///< line numbers
-      Kind                     kind;
-      std::vector<std::string> path; ///< subsections around it
-      std::string              name, value;
-    };
+    using Line = ParameterLine;
 
     std::string
     join(const std::vector<std::string> &parts, const std::string &separator)
@@ -36,71 +22,6 @@ namespace treacle
       for (const std::string &part : parts)
         result += (result.empty() ? "" : separator) + part;
       return result;
-    }
-
-    /// Split by words and '=' only, as deal.II's own reader does.
-    Line
-    classify(const std::string &text)
-    {
-      const auto is = [&](const std::string &word) {
-        return text.compare(0, word.size(), word) == 0;
-      };
-      if (is("subsection ") || is("SUBSECTION "))
-        return {0, 0, Line::subsection, {}, Utilities::trim(text.substr(11)), ""};
-      if (text == "end" || text == "END")
-        return {0, 0, Line::end, {}, "", ""};
-      const auto equals = text.find('=');
-      if ((is("set ") || is("SET ")) && equals != std::string::npos)
-        return {0,
-                0,
-                Line::set,
-                {},
-                Utilities::trim(text.substr(4, equals - 4)),
-                Utilities::trim(text.substr(equals + 1))};
-      return {0, 0, Line::other, {}, text, ""};
-    }
-
-    std::vector<Line>
-    read_lines(const std::string &text)
-    {
-      std::vector<Line>        lines;
-      std::vector<std::string> path;
-      std::istringstream       stream(text);
-      unsigned int             number = 0, first = 0;
-      std::string              whole;
-      for (std::string part; std::getline(stream, part);)
-        {
-          ++number;
-          first = whole.empty() ? number : first;
-          part  = part.substr(0, part.find('#'));
-          std::replace(part.begin(), part.end(), '\t', ' ');
-          std::replace(part.begin(), part.end(), '\r', ' ');
-          part = Utilities::trim(part);
-          if (!part.empty() && part.back() == '\\')
-            {
-              whole += part.substr(0, part.size() - 1);
-              continue;
-            }
-          whole = Utilities::trim(whole + part);
-          if (whole.empty())
-            continue;
-          Line line  = classify(whole);
-          line.first = first;
-          line.last  = number;
-          if (line.kind == Line::end && !path.empty())
-            path.pop_back();
-          else if (line.kind == Line::end)
-            {
-              line.kind = Line::other; // nothing to end
-              line.name = whole;
-            }
-          line.path = path;
-          if (line.kind == Line::subsection)
-            path.push_back(line.name);
-          lines.push_back(line);
-          whole.clear();
-        }
-      return lines;
     }
 
     std::string
@@ -122,7 +43,7 @@ namespace treacle
       std::ostringstream text;
       prm.print_parameters(text, ParameterHandler::ShortText);
       std::vector<std::string> names;
-      for (const Line &line : read_lines(text.str()))
+      for (const Line &line : parameter_lines(text.str()))
         if (line.kind == kind && line.path == path)
           names.push_back(line.name);
       return names.empty() ? "none" : join(names, ", ");
@@ -143,6 +64,35 @@ namespace treacle
       for (const auto &[from, to] : replacements)
         text = std::regex_replace(text, std::regex(from), to);
       return text;
+    }
+
+    /// What is wrong with a line that deal.II has that problem with; empty if it says it
+    /// best.
+    std::string
+    explanation(const Line &line, const std::string &problem, const ParameterHandler &prm)
+    {
+      const std::string where = line.path.empty() ?
+                                  "outside subsections" :
+                                  "in the subsection \"" + join(line.path, "/") + "\"";
+      if (line.kind == Line::subsection)
+        return "there is no subsection \"" + line.name + "\" " + where +
+               "; there are: " + names_in(prm, line.path, Line::subsection) + ".";
+      std::smatch value;
+      if (line.kind == Line::set &&
+          std::regex_search(problem,
+                            value,
+                            std::regex("does not match the given pattern: (.*)")))
+        return "\"" + line.value + "\" is no value for \"" + line.name + "\" " + where +
+               "; allowed: " + in_words(value[1]);
+      if (line.kind == Line::set && problem.find("No entry") != std::string::npos)
+        return "there is no parameter \"" + line.name + "\" " + where +
+               "; there are: " + names_in(prm, line.path, Line::set) + ".";
+      if (line.kind == Line::other &&
+          problem.find("cannot be opened") == std::string::npos)
+        return "\"" + line.name +
+               "\" is neither \"set Name = value\", \"subsection Name\" nor the \"end\" "
+               "of a subsection.";
+      return "";
     }
   } // namespace
 
@@ -167,8 +117,19 @@ namespace treacle
       text += '\n';
     n_lines = n_file_lines = std::count(text.begin(), text.end(), '\n');
 
+    check_closed();
+    for (const std::string &setting : settings)
+      append(setting);
+    scan();
+    if (name.empty())
+      n_numbered = {{"Liquid", 1}, {"Solid", 1}, {"Emitter", 1}, {"Probe", 1}};
+  }
+
+  void
+  ParameterFile::check_closed() const
+  {
     std::vector<Line> open;
-    for (const Line &line : read_lines(text))
+    for (const Line &line : parameter_lines(text))
       if (line.kind == Line::subsection)
         open.push_back(line);
       else if (line.kind == Line::end)
@@ -177,11 +138,6 @@ namespace treacle
             open.empty() ? "" :
                            place(open.back().first) + ": the subsection \"" +
                              open.back().name + "\" is not closed by \"end\".");
-    for (const std::string &setting : settings)
-      append(setting);
-    scan();
-    if (name.empty())
-      n_numbered = {{"Liquid", 1}, {"Solid", 1}, {"Emitter", 1}, {"Probe", 1}};
   }
 
   void
@@ -213,7 +169,7 @@ namespace treacle
                      lines; // by name and number
     const std::regex numbered("(Liquid|Solid|Emitter|Probe) ([0-9]{1,6})");
     std::smatch      match;
-    for (const Line &line : read_lines(text))
+    for (const Line &line : parameter_lines(text))
       if (!line.path.empty())
         continue;
       else if (line.kind == Line::set && line.name == "Dimension")
@@ -278,35 +234,11 @@ namespace treacle
     const unsigned int number = std::stoul(match[1]);
     const std::string  problem =
       std::regex_replace(match[2].str().substr(name.size()), std::regex("^>?:? "), "");
-    for (const Line &line : read_lines(text))
+    for (const Line &line : parameter_lines(text))
       if (line.first <= number && number <= line.last)
-        {
-          const std::string where =
-            line.path.empty() ? "outside subsections" :
-                                "in the subsection \"" + join(line.path, "/") + "\"";
-          if (line.kind == Line::subsection)
-            throw UserError(
-              place(number) + ": there is no subsection \"" + line.name + "\" " + where +
-              "; there are: " + names_in(prm, line.path, Line::subsection) + ".");
-          std::smatch value;
-          if (line.kind == Line::set &&
-              std::regex_search(problem,
-                                value,
-                                std::regex("does not match the given pattern: (.*)")))
-            throw UserError(place(number) + ": \"" + line.value +
-                            "\" is no value for \"" + line.name + "\" " + where +
-                            "; allowed: " + in_words(value[1]));
-          if (line.kind == Line::set && problem.find("No entry") != std::string::npos)
-            throw UserError(place(number) + ": there is no parameter \"" + line.name +
-                            "\" " + where +
-                            "; there are: " + names_in(prm, line.path, Line::set) + ".");
-          if (line.kind == Line::other &&
-              problem.find("cannot be opened") == std::string::npos)
-            throw UserError(
-              place(number) + ": \"" + line.name +
-              "\" is neither \"set Name = value\", \"subsection Name\" nor the \"end\" "
-              "of a subsection.");
-        }
+        if (const std::string sentence = explanation(line, problem, prm);
+            !sentence.empty())
+          throw UserError(place(number) + ": " + sentence);
     throw UserError(place(number) + ": " + problem);
   }
 } // namespace treacle

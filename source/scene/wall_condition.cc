@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/choice.h>
 #include <treacle/base/exceptions.h>
 #include <treacle/scene/wall_condition.h>
 
@@ -40,42 +41,44 @@ namespace treacle
   } // namespace
 
   template <int dim>
-  std::array<bool, 2 * dim + 1>
+  WallConditions<dim>
   parse_wall_condition(const std::string &text)
   {
-    const std::vector<std::string> sides = side_names<dim>();
-    std::map<std::string, bool>    no_slip;
+    const Choice<WallCondition>          conditions{{"no slip", WallCondition::no_slip},
+                                           {"free slip", WallCondition::free_slip}};
+    const std::vector<std::string>       sides = side_names<dim>();
+    std::map<std::string, WallCondition> given;
     for (const std::string &clause : Utilities::split_string_list(text, ';'))
       {
-        const std::size_t colon     = clause.find(':');
-        const std::string condition = Utilities::trim(
-          colon == std::string::npos ? clause : clause.substr(colon + 1));
+        const std::size_t colon = clause.find(':');
+        const std::string condition =
+          Utilities::trim(colon == std::string::npos ? clause : clause.substr(colon + 1));
         const std::string names =
           colon == std::string::npos ? "default" : clause.substr(0, colon);
 
-        if (condition != "no slip" && condition != "free slip")
+        if (!conditions.has(condition))
           wall_condition_error(text, "\"" + condition + "\" is no condition", dim);
         for (const std::string &name : Utilities::split_string_list(names, ','))
           {
             if (name != "default" && std::count(sides.begin(), sides.end(), name) == 0)
               wall_condition_error(text, "\"" + name + "\" is no side", dim);
-            if (!no_slip.emplace(name, condition == "no slip").second)
+            if (!given.emplace(name, conditions.value(condition)).second)
               wall_condition_error(text, "it sets \"" + name + "\" twice", dim);
           }
       }
-    if (no_slip.empty())
+    if (given.empty())
       wall_condition_error(text, "it sets no side", dim);
 
-    no_slip.emplace("default", true);
-    std::array<bool, 2 * dim + 1> result;
-    result[2 * dim] = no_slip["default"];
+    given.emplace("default", WallCondition::no_slip);
+    WallConditions<dim> result;
+    result[2 * dim] = given["default"];
     for (unsigned int side = 0; side < 2 * dim; ++side)
-      result[side] = no_slip[no_slip.count(sides[side]) ? sides[side] : "default"];
+      result[side] = given[given.count(sides[side]) ? sides[side] : "default"];
     return result;
   }
 
-  template std::array<bool, 5>
+  template WallConditions<2>
   parse_wall_condition<2>(const std::string &);
-  template std::array<bool, 7>
+  template WallConditions<3>
   parse_wall_condition<3>(const std::string &);
 } // namespace treacle

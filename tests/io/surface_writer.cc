@@ -176,7 +176,7 @@ check_cut(const MPI_Comm &comm, const double offset, const bool is_tilted)
   solid.centre = diagonal_point<dim>(0.5) - offset * normal;
   const Scene<dim> scene(parameters);
   const State<dim> state = tests::ball_state<dim>(comm);
-  SurfaceWriter<dim>({"ply"}).write(state, tests::WhereLiquidIs<dim>(state, scene).domain, "out", 1);
+  SurfaceWriter<dim>({SurfaceFormat::ply}).write(state, WhereLiquidIs<dim>(state, scene).domain, "out", 1);
   if (Utilities::MPI::this_mpi_process(comm) > 0)
     return;
   const std::string bytes = read("out/frames/surface_00001.ply");
@@ -196,8 +196,9 @@ check(const MPI_Comm &comm)
   static std::string of_one_rank;
   State<dim>         state = tests::ball_state<dim>(comm);
   const Scene<dim>   scene(tests::ball_scene<dim>());
-  const tests::WhereLiquidIs<dim> liquid(state, scene);
-  for (const char *format : {"obj", "vtp", "none", "ply"})
+  const WhereLiquidIs<dim> liquid(state, scene);
+  for (const SurfaceFormat format :
+       {SurfaceFormat::obj, SurfaceFormat::vtp, SurfaceFormat::none, SurfaceFormat::ply})
     SurfaceWriter<dim>({format}).write(state, liquid.domain, "out", dim);
   const std::string name = "out/frames/surface_0000" + std::to_string(dim);
   if (Utilities::MPI::this_mpi_process(comm) == 0)
@@ -214,7 +215,7 @@ check(const MPI_Comm &comm)
     }
   state.phi = 1;
   state.phi.update_ghost_values();
-  SurfaceWriter<dim>({"ply"}).write(state, tests::WhereLiquidIs<dim>(state, scene).domain, "out", 0);
+  SurfaceWriter<dim>({SurfaceFormat::ply}).write(state, liquid.domain, "out", 0);
   if (Utilities::MPI::this_mpi_process(comm) == 0)
     tests::out() << "empty: "
                  << read_ply<dim>(read("out/frames/surface_00000.ply")).facets.size()

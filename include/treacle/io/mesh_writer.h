@@ -8,6 +8,14 @@
 
 namespace treacle
 {
+  /// Of the files of a frame.
+  enum class MeshFormat
+  {
+    vtu,
+    xdmf,
+    none
+  };
+
   /// Writes the mesh with what lives on it, one set of files a frame, and the
   /// list of the frames so far with their times.
   template <int dim>
@@ -16,7 +24,7 @@ namespace treacle
   public:
     struct Parameters
     {
-      std::string format = "vtu";
+      MeshFormat format = MeshFormat::vtu;
 
       void
       add_parameters(ParameterHandler &prm);
@@ -37,7 +45,7 @@ namespace treacle
           const unsigned int       frame) const;
 
   private:
-    std::string format;
+    MeshFormat format;
   };
 } // namespace treacle
 

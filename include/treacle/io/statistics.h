@@ -6,6 +6,7 @@
 
 #include <treacle/dynamics/step_info.h>
 #include <treacle/io/probes.h>
+#include <treacle/io/table_row.h>
 
 namespace treacle
 {
@@ -16,14 +17,6 @@ namespace treacle
   class Statistics
   {
   public:
-    /// One number of a row, under the name of its column.
-    struct Entry
-    {
-      std::string name;
-      double      value;
-      bool        is_count;
-    };
-
     /// Starts a new table. The directory exists.
     Statistics(const MPI_Comm    &comm,
                const std::string &directory,
@@ -34,7 +27,8 @@ namespace treacle
     void
     resume(const State<dim> &state, const LiquidDomain<dim> &domain);
 
-    /// Without loads zeros are written. Collective; throws a UserError on all ranks if the file cannot be written.
+    /// Without loads zeros are written. Collective; throws a UserError on all ranks if
+    /// the file cannot be written.
     void
     add_row(const State<dim>        &state,
             const LiquidDomain<dim> &domain,
@@ -53,15 +47,15 @@ namespace treacle
     void
     append();
 
-    MPI_Comm           comm;
-    std::string        path;
-    const Probes<dim>  probes;
-    bool               has_file     = false;
-    bool               has_first    = false;
-    double             first_volume = 0; ///< of the first row (m^dim)
-    double             emitted      = 0; ///< since the start (m^dim)
-    unsigned int       n_rebuilds   = 0;
-    std::vector<Entry> row;
+    MPI_Comm          comm;
+    std::string       path;
+    const Probes<dim> probes;
+    bool              has_file     = false;
+    bool              has_first    = false;
+    double            first_volume = 0; ///< of the first row (m^dim)
+    double            emitted      = 0; ///< since the start (m^dim)
+    unsigned int      n_rebuilds   = 0;
+    TableRow          row;
   };
 } // namespace treacle
 

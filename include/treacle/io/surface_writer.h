@@ -10,6 +10,15 @@
 
 namespace treacle
 {
+  /// Of the files of a frame.
+  enum class SurfaceFormat
+  {
+    ply,
+    obj,
+    vtp,
+    none
+  };
+
   /// Writes the surface of the liquid outside solids with its velocity, one file a frame:
   /// closed along solids, open on the box. Which ranks there are
   /// does not change a byte of it.
@@ -19,7 +28,7 @@ namespace treacle
   public:
     struct Parameters
     {
-      std::string format = "ply";
+      SurfaceFormat format = SurfaceFormat::ply;
 
       void
       add_parameters(ParameterHandler &prm);
@@ -38,7 +47,7 @@ namespace treacle
           const unsigned int       frame) const;
 
   private:
-    std::string format;
+    SurfaceFormat format;
   };
 } // namespace treacle
 

@@ -10,19 +10,26 @@
 
 namespace treacle
 {
+  /// Where the mesh comes from.
+  enum class MeshType
+  {
+    lattice,
+    file
+  };
+
   /// A mesh that a file describes.
   template <int dim>
   struct ImportedMesh
   {
     struct Parameters
     {
-      std::string type = "lattice";
+      MeshType    type = MeshType::lattice;
       std::string file;
 
       bool
       is_imported() const
       {
-        return type == "file";
+        return type == MeshType::file;
       }
 
       /// Subsection Mesh.

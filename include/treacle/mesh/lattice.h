@@ -28,21 +28,6 @@ namespace treacle
   template <int dim>
   Lattice<dim>
   make_lattice(const Octree<dim> &octree);
-
-  /// Weights, in units of the squared half edge of a leaf, that make the
-  /// lattice weighted Delaunay with the longest possible dual edges.
-  template <int dim>
-  struct LatticeWeights
-  {
-    static constexpr double centre     = dim == 2 ? 0.343 : 0;
-    static constexpr double hanging    = dim == 2 ? -0.071 : -0.18469;
-    static constexpr double box_centre = dim == 2 ? 0 : -1;
-  };
-
-  /// Weight (m^2) of a vertex of a cell that stands on an owned leaf.
-  template <int dim>
-  double
-  lattice_weight(const Octree<dim> &octree, const LatticePoint<dim> &vertex);
 } // namespace treacle
 
 #endif

@@ -4,9 +4,9 @@
 #ifndef treacle_mesh_octree_h
 #define treacle_mesh_octree_h
 
-#include <treacle/base/types.h>
+#include <treacle/mesh/leaf.h>
+#include <treacle/mesh/octree_parameters.h>
 
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/distributed/tria.h>
 
 #include <functional>
@@ -16,97 +16,26 @@
 
 namespace treacle
 {
-  /// Integer coordinates on the finest lattice: units of half a finest leaf.
-  template <int dim>
-  using LatticePoint = std::array<int, dim>;
-
-  /// Pack lattice coordinates (21 bits each) into a key.
-  template <int dim>
-  inline VertexKey
-  pack(const LatticePoint<dim> &p)
-  {
-    VertexKey key = 0;
-    for (unsigned int d = 0; d < dim; ++d)
-      key = (key << 21) | static_cast<VertexKey>(p[d]);
-    return key;
-  }
-
-  template <int dim>
-  inline LatticePoint<dim>
-  unpack(VertexKey key)
-  {
-    LatticePoint<dim> p;
-    for (int d = dim - 1; d >= 0; --d, key >>= 21)
-      p[d] = static_cast<int>(key & ((1u << 21) - 1));
-    return p;
-  }
-
-  /// A leaf of the octree: its lowest corner and edge in lattice units.
-  template <int dim>
-  struct Leaf
-  {
-    LatticePoint<dim> origin;
-    int               size;
-    unsigned int      level;
-
-    LatticePoint<dim>
-    centre() const
-    {
-      LatticePoint<dim> c = origin;
-      for (auto &x : c)
-        x += size / 2;
-      return c;
-    }
-  };
-
-  /// The face, edge or corner neighbour of the same size as a known leaf.
-  enum class Neighbour
-  {
-    outside,
-    same,
-    finer,
-    coarser
-  };
-
   /// A balanced (2:1 over faces, edges and corners), partitioned octree on a box.
   template <int dim>
   class Octree
   {
   public:
-    struct Parameters
-    {
-      Point<dim>   lower_corner;
-      Point<dim>   upper_corner;
-      unsigned int root_cells    = 1;
-      unsigned int surface_level = 6;
-      unsigned int interior_level = 4;
-      unsigned int air_level      = 3;
-      unsigned int band_width     = 3;
-
-      /// Throws a UserError where no octree fits.
-      void
-      check() const;
-
-      /// Edge of a leaf of the surface level (m).
-      double
-      finest_size() const;
-
-      /// Subsection Mesh; the corners belong to the Scene.
-      void
-      add_parameters(ParameterHandler &prm);
-    };
+    using Parameters = OctreeParameters<dim>;
 
     /// Which of these leaves, all of one level, are to be refined? Collective.
-    using Criterion =
-      std::function<std::vector<bool>(const std::vector<Leaf<dim>> &)>;
+    using Criterion = std::function<std::vector<bool>(const std::vector<Leaf<dim>> &)>;
+
+    /// The work that a leaf makes (at least 1).
+    using Weight = std::function<unsigned int(const Leaf<dim> &)>;
 
     /// Refine level by level from the root cells, balance, and partition so
-    /// that every rank has about the same sum of @p weight (at least 1).
+    /// that every rank has about the same sum of @p weight.
     /// Throws a UserError where cubes cannot tile the box.
-    Octree(const MPI_Comm                                &comm,
-           const Parameters                              &parameters,
-           const Criterion                               &criterion,
-           const std::function<unsigned int(const Leaf<dim> &)> &weight);
+    Octree(const MPI_Comm   &comm,
+           const Parameters &parameters,
+           const Criterion  &criterion,
+           const Weight     &weight);
 
     const MPI_Comm &
     communicator() const
@@ -179,6 +108,24 @@ namespace treacle
     }
 
   private:
+    using CellIterator = typename Triangulation<dim>::cell_iterator;
+
+    /// Edge of a root cube in lattice units.
+    int
+    root_size() const
+    {
+      return 2 << prm.surface_level;
+    }
+
+    Leaf<dim>
+    leaf_of(const CellIterator &cell) const;
+
+    void
+    refine(const Criterion &criterion);
+
+    void
+    partition(const Weight &weight);
+
     void
     collect_leaves();
 

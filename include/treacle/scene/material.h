@@ -10,6 +10,13 @@
 
 namespace treacle
 {
+  /// What density and viscosity do when the liquid moves.
+  enum class MaterialTransport
+  {
+    fixed,
+    advected
+  };
+
   /// Density and viscosity of a liquid.
   template <int dim>
   class Material
@@ -33,7 +40,9 @@ namespace treacle
 
     /// @p where names the subsection in messages. What is empty is as in
     /// @p otherwise. Throws a UserError where a formula makes no sense.
-    Material(const Parameters &parameters, const std::string &where, const Material *otherwise = nullptr);
+    Material(const Parameters  &parameters,
+             const std::string &where,
+             const Material    *otherwise = nullptr);
 
     /// kg/m^dim. Throws a UserError if it is not positive.
     double

@@ -33,7 +33,8 @@ namespace treacle
       return dim;
     }
 
-    /// How many numbered subsections of this name there are: Liquid, Solid, Emitter, Probe.
+    /// How many numbered subsections of this name there are: Liquid, Solid, Emitter,
+    /// Probe.
     unsigned int
     count(const std::string &name) const
     {
@@ -47,6 +48,10 @@ namespace treacle
     parse(ParameterHandler &prm) const;
 
   private:
+    /// Throws a UserError where a subsection has no end.
+    void
+    check_closed() const;
+
     void
     append(const std::string &setting);
 

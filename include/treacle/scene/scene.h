@@ -4,37 +4,43 @@
 #ifndef treacle_scene_scene_h
 #define treacle_scene_scene_h
 
-#include <treacle/scene/emitter.h>
-#include <treacle/scene/solid.h>
+#include <treacle/scene/emitters.h>
+#include <treacle/scene/solids.h>
+#include <treacle/scene/wall_condition.h>
 
 namespace treacle
 {
   /// What the parameter file says of the world: box, walls, liquids, solids,
-  /// emitters, material, gravity. Positions in m, time in s, no state of its own.
+  /// emitters, material, gravity. Positions in m, time in s, no state of its own. What
+  /// concerns solids or emitters alone it has from them.
   template <int dim>
-  class Scene
+  class Scene : public Solids<dim>, public Emitters<dim>
   {
   public:
     struct Parameters
     {
       struct Liquid
       {
-        typename Shape<dim>::Parameters    shape;
-        std::string                        velocity = (dim == 2 ? "0; 0" : "0; 0; 0"); // m/s
+        typename Shape<dim>::Parameters shape;
+        std::string                     velocity = (dim == 2 ? "0; 0" : "0; 0; 0"); // m/s
         typename Material<dim>::Parameters material;
+
+        /// Declare in the current subsection.
+        void
+        add_parameters(ParameterHandler &prm);
       };
 
-      Point<dim>  lower_corner;
-      Point<dim>  upper_corner   = diagonal_point<dim>(1);
-      std::string wall_condition = "no slip";
-      std::string transport      = "fixed";
-      std::string acceleration   = (dim == 2 ? "0; -9.81" : "0; 0; -9.81"); // m/s^2
+      Point<dim>        lower_corner;
+      Point<dim>        upper_corner   = diagonal_point<dim>(1);
+      std::string       wall_condition = "no slip";
+      MaterialTransport transport      = MaterialTransport::fixed;
+      std::string       acceleration   = (dim == 2 ? "0; -9.81" : "0; 0; -9.81"); // m/s^2
 
       typename Material<dim>::Parameters material{"1000", "150"};
 
-      std::vector<Liquid>                            liquids;
-      std::vector<typename Solid<dim>::Parameters>   solids;
-      std::vector<typename Emitter<dim>::Parameters> emitters;
+      std::vector<Liquid>                liquids;
+      typename Solids<dim>::Parameters   solids;
+      typename Emitters<dim>::Parameters emitters;
 
       /// Declare the subsections, with Liquid 1 to n_liquids and so on; @p prm
       /// writes into this object when it parses.
@@ -43,6 +49,13 @@ namespace treacle
                      const unsigned int n_liquids,
                      const unsigned int n_solids,
                      const unsigned int n_emitters = 0);
+
+    private:
+      void
+      add_domain(ParameterHandler &prm);
+
+      void
+      add_material_and_gravity(ParameterHandler &prm);
     };
 
     /// Throws a UserError that names the parameter at fault.
@@ -58,10 +71,12 @@ namespace treacle
     bool
     no_slip(const unsigned int wall) const;
 
-    unsigned int n_liquids() const;
+    unsigned int
+    n_liquids() const;
 
     /// Signed distance to liquid k (from 0) at t = 0, negative inside.
-    double liquid_distance(const unsigned int k, const Point<dim> &x) const;
+    double
+    liquid_distance(const unsigned int k, const Point<dim> &x) const;
 
     /// Signed distance to the liquid at t = 0, negative inside: the union of the
     /// liquids and of the emitters that start then. A large number without any.
@@ -75,66 +90,6 @@ namespace treacle
     /// Material at t = 0: of the emitter around x, or of the nearest liquid.
     const Material<dim> &
     initial_material(const Point<dim> &x) const;
-
-    bool
-    has_solids() const;
-
-    unsigned int
-    n_solids() const;
-
-    /// Signed distance to the union of the solids, positive outside
-    /// them (where liquid may be); a large number if there is none.
-    double
-    solid_distance(const Point<dim> &x, const double t) const;
-
-    bool
-    has_moving_solids() const;
-
-    /// The same to the solids at rest, and to the others.
-    double
-    resting_solid_distance(const Point<dim> &x) const;
-    double
-    moving_solid_distance(const Point<dim> &x, const double t) const;
-
-    /// Of the nearest solid (m/s).
-    Tensor<1, dim>
-    solid_velocity(const Point<dim> &x, const double t) const;
-
-    /// The solid (from 0) of smallest distance; there is at least one.
-    unsigned int
-    nearest_solid(const Point<dim> &x, const double t) const;
-
-    /// Centre of rotation of solid k (m).
-    Point<dim>
-    solid_centre(const unsigned int k, const double t) const;
-
-    /// Throws a UserError if a moving solid has left the box.
-    void
-    check_solids(const double t) const;
-
-    const std::vector<Emitter<dim>> &
-    emitters() const;
-
-    /// Signed distance to the union of the emitters at work from t on, negative
-    /// inside; a large number if there is none.
-    double
-    emitter_distance(const Point<dim> &x, const double t) const;
-
-    /// Of the nearest emitter at work from t on (m/s); zero if there is none.
-    Tensor<1, dim>
-    emitter_velocity(const Point<dim> &x, const double t) const;
-
-    /// Smallest distance to the boundary of an emitter that has not stopped at t.
-    double
-    distance_to_emitter_boundary(const Point<dim> &x, const double t) const;
-
-    /// The next time after t at which an emitter starts or stops (s).
-    double
-    next_switch(const double t) const;
-
-    /// Does an emitter start or stop at t?
-    bool
-    has_switch_at(const double t) const;
 
     /// Are density and viscosity carried along with the liquid?
     bool
@@ -155,21 +110,15 @@ namespace treacle
       Material<dim>         material;
     };
 
-    /// The emitter at work from t on with the smallest distance, or null, and that distance.
-    std::pair<const Emitter<dim> *, double>
-    nearest_emitter(const Point<dim> &x, const double t) const;
-
     void
     check_transport(const Parameters &parameters) const;
 
-    Point<dim>                lower, upper;
-    std::array<bool, 2 * dim + 1> sticks; // per side of the box; the default
-    Material<dim>             material;
-    bool                      advected_material;
-    VectorExpression<dim>     gravity_at;
-    std::vector<Liquid>       liquids;
-    std::vector<Solid<dim>>   solids;
-    std::vector<Emitter<dim>> emitter_list;
+    Point<dim>            lower, upper;
+    WallConditions<dim>   walls;
+    Material<dim>         material;
+    MaterialTransport     transport;
+    VectorExpression<dim> gravity_at;
+    std::vector<Liquid>   liquids;
   };
 } // namespace treacle
 

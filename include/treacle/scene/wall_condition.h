@@ -9,12 +9,22 @@
 
 namespace treacle
 {
-  /// Does liquid stick to a side of the box? In the order 2 axis + upper, then the
-  /// default, which holds for all other walls; from a text like "default: no slip; left,
-  /// right: free slip". Sides that are not mentioned, by name or as "default", are no slip.
-  /// Throws a UserError that says what is wrong.
+  enum class WallCondition
+  {
+    no_slip,
+    free_slip
+  };
+
+  /// Of the sides of the box, in the order 2 axis + upper, then the default, which holds
+  /// for all other walls.
   template <int dim>
-  std::array<bool, 2 * dim + 1>
+  using WallConditions = std::array<WallCondition, 2 * dim + 1>;
+
+  /// From a text like "default: no slip; left, right: free slip". Sides that are not
+  /// mentioned, by name or as "default", are no slip. Throws a UserError that says what
+  /// is wrong.
+  template <int dim>
+  WallConditions<dim>
   parse_wall_condition(const std::string &text);
 } // namespace treacle
 

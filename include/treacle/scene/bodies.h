@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_scene_bodies_h
+#define treacle_scene_bodies_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace treacle
+{
+  using namespace dealii;
+
+  /// What stands for a distance from nothing (m): finite, for it is interpolated.
+  constexpr double far_away = 1e30;
+
+  /// The subsection of body k (from 0), as "Liquid 1".
+  inline std::string
+  numbered(const std::string &name, const unsigned int k)
+  {
+    return name + " " + std::to_string(k + 1);
+  }
+
+  /// Declare the subsections of n bodies.
+  template <typename Parameters>
+  void
+  add_numbered(ParameterHandler        &prm,
+               const std::string       &name,
+               std::vector<Parameters> &bodies,
+               const unsigned int       n)
+  {
+    bodies.resize(n);
+    for (unsigned int k = 0; k < n; ++k)
+      {
+        prm.enter_subsection(numbered(name, k));
+        bodies[k].add_parameters(prm);
+        prm.leave_subsection();
+      }
+  }
+
+  /// The entry with the smallest distance (there is at least one), and it.
+  template <typename Body, typename Distance>
+  std::pair<const Body *, double>
+  nearest(const std::vector<Body> &bodies, const Distance &distance_of)
+  {
+    std::pair<const Body *, double> result(nullptr,
+                                           std::numeric_limits<double>::infinity());
+    for (const Body &body : bodies)
+      if (const double distance = distance_of(body);
+          result.first == nullptr || distance < result.second)
+        result = {&body, distance};
+    return result;
+  }
+} // namespace treacle
+
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_scene_solids_h
+#define treacle_scene_solids_h
+
+#include <treacle/scene/solid.h>
+
+namespace treacle
+{
+  /// The solids of a scene and their union.
+  template <int dim>
+  class Solids
+  {
+  public:
+    using Parameters = std::vector<typename Solid<dim>::Parameters>;
+
+    Solids(const Parameters &parameters, const BoundingBox<dim> &box);
+
+    bool
+    has_solids() const;
+
+    unsigned int
+    n_solids() const;
+
+    /// Signed distance to the union of the solids, positive outside
+    /// them (where liquid may be); a large number if there is none.
+    double
+    solid_distance(const Point<dim> &x, const double t) const;
+
+    bool
+    has_moving_solids() const;
+
+    /// The same to the solids at rest alone, and to the others.
+    double
+    resting_solid_distance(const Point<dim> &x) const;
+    double
+    moving_solid_distance(const Point<dim> &x, const double t) const;
+
+    /// Of the nearest solid (m/s).
+    Tensor<1, dim>
+    solid_velocity(const Point<dim> &x, const double t) const;
+
+    /// The solid (from 0) of smallest distance; there is at least one.
+    unsigned int
+    nearest_solid(const Point<dim> &x, const double t) const;
+
+    /// Centre of rotation of solid k (m).
+    Point<dim>
+    solid_centre(const unsigned int k, const double t) const;
+
+    /// Throws a UserError if a moving solid has left the box.
+    void
+    check_solids(const double t) const;
+
+  private:
+    /// To those that move, or those that do not.
+    double
+    distance_to(const bool moving, const Point<dim> &x, const double t) const;
+
+    std::vector<Solid<dim>> solids;
+  };
+} // namespace treacle
+
+#endif

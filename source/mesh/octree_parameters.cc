@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exceptions.h>
+#include <treacle/mesh/octree_parameters.h>
+
+#include <cmath>
+
+namespace treacle
+{
+  template <int dim>
+  double
+  OctreeParameters<dim>::shortest_edge() const
+  {
+    const Tensor<1, dim> edge     = upper_corner - lower_corner;
+    double               shortest = edge[0];
+    for (unsigned int d = 1; d < dim; ++d)
+      shortest = std::min(shortest, edge[d]);
+    return shortest;
+  }
+
+  template <int dim>
+  std::vector<unsigned int>
+  OctreeParameters<dim>::root_counts() const
+  {
+    const double              s = shortest_edge() / root_cells;
+    std::vector<unsigned int> n(dim);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double edge = upper_corner[d] - lower_corner[d];
+        n[d]              = static_cast<unsigned int>(std::lround(edge / s));
+        require(std::abs(edge / s - n[d]) < 1e-6,
+                "Domain: cubes cannot tile the box. With Mesh/Root cells = " +
+                  std::to_string(root_cells) + " a root cube has the edge " + digits(s) +
+                  " m, and edge " + std::to_string(d + 1) + " of the box is " +
+                  digits(edge / s) +
+                  " cubes long. Change the corners, or raise Root cells until every "
+                  "edge is a whole number of cubes.");
+      }
+    return n;
+  }
+
+  template <int dim>
+  void
+  OctreeParameters<dim>::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Mesh");
+    prm.add_parameter("Root cells",
+                      root_cells,
+                      "Cubes along the shortest edge of the box at level 0.",
+                      Patterns::Integer(1, 1000));
+    prm.add_parameter("Surface level",
+                      surface_level,
+                      "Level of the leaves in a band around the surface; a leaf "
+                      "of level l has the edge: shortest box edge / (Root cells "
+                      "* 2^l).",
+                      Patterns::Integer(1, 18));
+    prm.add_parameter("Interior level",
+                      interior_level,
+                      "Smallest level of leaves inside the liquid.",
+                      Patterns::Integer(0, 18));
+    prm.add_parameter("Air level",
+                      air_level,
+                      "Smallest level of leaves anywhere.",
+                      Patterns::Integer(0, 18));
+    prm.add_parameter("Band width",
+                      band_width,
+                      "Number of finest leaves on each side of the surface.",
+                      Patterns::Integer(1, 20));
+    prm.leave_subsection();
+  }
+
+  template <int dim>
+  void
+  OctreeParameters<dim>::check() const
+  {
+    for (const unsigned int n : root_counts())
+      require(
+        static_cast<double>(n) * (2 << surface_level) < (1 << 21),
+        "Mesh/Surface level and Mesh/Root cells: more than 2^20 leaves along an edge "
+        "of the box; lower one of them.");
+    require(interior_level <= surface_level && air_level <= surface_level,
+            "Mesh/Interior level and Mesh/Air level must not be larger than Mesh/Surface "
+            "level.");
+  }
+
+  template <int dim>
+  double
+  OctreeParameters<dim>::finest_size() const
+  {
+    return std::ldexp(shortest_edge() / root_cells, -static_cast<int>(surface_level));
+  }
+
+  template struct OctreeParameters<2>;
+  template struct OctreeParameters<3>;
+} // namespace treacle

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/scene/bodies.h>
+#include <treacle/scene/solids.h>
+
+namespace treacle
+{
+  template <int dim>
+  Solids<dim>::Solids(const Parameters &parameters, const BoundingBox<dim> &box)
+  {
+    for (unsigned int k = 0; k < parameters.size(); ++k)
+      solids.emplace_back(parameters[k], numbered("Solid", k), box);
+  }
+
+  template <int dim>
+  bool
+  Solids<dim>::has_solids() const
+  {
+    return !solids.empty();
+  }
+
+  template <int dim>
+  unsigned int
+  Solids<dim>::n_solids() const
+  {
+    return solids.size();
+  }
+
+  template <int dim>
+  double
+  Solids<dim>::solid_distance(const Point<dim> &x, const double t) const
+  {
+    const auto distance = [&](const Solid<dim> &solid) {
+      return solid.signed_distance(x, t);
+    };
+    return solids.empty() ? far_away : nearest(solids, distance).second;
+  }
+
+  template <int dim>
+  bool
+  Solids<dim>::has_moving_solids() const
+  {
+    return std::any_of(solids.begin(), solids.end(), [](const Solid<dim> &solid) {
+      return solid.is_moving();
+    });
+  }
+
+  template <int dim>
+  double
+  Solids<dim>::distance_to(const bool moving, const Point<dim> &x, const double t) const
+  {
+    double distance = far_away;
+    for (const Solid<dim> &solid : solids)
+      if (solid.is_moving() == moving)
+        distance = std::min(distance, solid.signed_distance(x, t));
+    return distance;
+  }
+
+  template <int dim>
+  double
+  Solids<dim>::resting_solid_distance(const Point<dim> &x) const
+  {
+    return distance_to(false, x, 0);
+  }
+
+  template <int dim>
+  double
+  Solids<dim>::moving_solid_distance(const Point<dim> &x, const double t) const
+  {
+    return distance_to(true, x, t);
+  }
+
+  template <int dim>
+  Tensor<1, dim>
+  Solids<dim>::solid_velocity(const Point<dim> &x, const double t) const
+  {
+    const auto distance = [&](const Solid<dim> &solid) {
+      return solid.signed_distance(x, t);
+    };
+    return solids.empty() ? Tensor<1, dim>() :
+                            nearest(solids, distance).first->velocity(x, t);
+  }
+
+  template <int dim>
+  unsigned int
+  Solids<dim>::nearest_solid(const Point<dim> &x, const double t) const
+  {
+    const auto distance = [&](const Solid<dim> &solid) {
+      return solid.signed_distance(x, t);
+    };
+    return nearest(solids, distance).first - solids.data();
+  }
+
+  template <int dim>
+  Point<dim>
+  Solids<dim>::solid_centre(const unsigned int k, const double t) const
+  {
+    return solids[k].centre(t);
+  }
+
+  template <int dim>
+  void
+  Solids<dim>::check_solids(const double t) const
+  {
+    for (const Solid<dim> &solid : solids)
+      solid.check(t);
+  }
+
+  template class Solids<2>;
+  template class Solids<3>;
+} // namespace treacle
