@@ -8,6 +8,7 @@ for runs in two dimensions also their final outlines over one another.
 """
 
 import sys
+from pathlib import Path
 
 import matplotlib
 
@@ -15,11 +16,12 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy
 
-from outline import liquid_loops
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+from treacle.outline import liquid_loops
 from outlines import parse
 from render_2d import draw_box
-from run_output import DataError, Run
-from statistics import read_statistics
+from treacle import DataError, Run
+from treacle.statistics import read_statistics
 
 N_TIMES = 7  # of the table
 

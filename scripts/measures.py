@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy
 
-from run_output import Run, read_parameters
-from statistics import read_statistics
+from treacle import Run, read_parameters
+from treacle.statistics import read_statistics
 
 TIME = "Time (s)"
 

@@ -8,6 +8,7 @@ liquid's height against time; prints height, width and area.
 """
 
 import sys
+from pathlib import Path
 
 import matplotlib
 
@@ -15,10 +16,11 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy
 
-from outline import area, liquid_loops
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+from treacle.outline import area, liquid_loops
 from render_2d import draw_box
-from run_output import DataError, Run
-from statistics import read_statistics
+from treacle import DataError, Run
+from treacle.statistics import read_statistics
 
 TIME, HEIGHT = "Time (s)", "Liquid maximum y (m)"
 

@@ -13,8 +13,10 @@ import os
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
-from run_output import DataError, Run
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+from treacle import DataError, Run
 
 
 def numbers(text, separator, count, convert):

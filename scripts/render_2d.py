@@ -11,7 +11,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.patches import Circle, PathPatch, Rectangle
 from matplotlib.path import Path
 
-from outline import liquid_loops
+from treacle.outline import liquid_loops
 
 LIQUID, EDGE, SOLID, FRAME = "#f0b43c", "#8a5200", "#9aa0a6", "#3c4043"
 LEVEL_SET = matplotlib.colors.LinearSegmentedColormap.from_list(
@@ -84,8 +84,8 @@ class Pictures2D:
 
     def _container(self, axes, frame):
         from mesh_liquid import walls, weld, wet_polygons
-        from mesh_reader import read_mesh
-        points, cells, phi = read_mesh(self.run.mesh(frame))
+        mesh = self.run.mesh(frame)
+        points, cells, phi = mesh.points, mesh.cells, mesh.point_data["phi"]
         polygons = list(wet_polygons(points[:, :2], cells, phi))
         axes.add_collection(PolyCollection(polygons, facecolors=LIQUID, edgecolors=LIQUID,
                                            linewidths=0.3))
@@ -94,8 +94,8 @@ class Pictures2D:
                                            capstyle="round", zorder=5))
 
     def _mesh(self, figure, axes, frame):
-        from mesh_reader import read_mesh
-        points, cells, phi = read_mesh(self.run.mesh(frame))
+        mesh = self.run.mesh(frame)
+        points, cells, phi = mesh.points, mesh.cells, mesh.point_data["phi"]
         limit = 0.1 * (self.run.upper - self.run.lower).min()
         polygons = PolyCollection(points[cells][:, :, :2], array=phi[cells].mean(axis=1),
                                   cmap=LEVEL_SET, clim=(-limit, limit),

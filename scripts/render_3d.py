@@ -7,7 +7,7 @@ import vtk
 from scipy.sparse import coo_matrix, identity
 from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
-from outline import liquid_loops, merge
+from treacle.outline import liquid_loops, merge
 from studio import SAMPLES, SOLID, Studio
 
 HONEY_DEEP, HONEY_THIN = numpy.array([0.66, 0.24, 0.0]), numpy.array([1.0, 0.60, 0.10])
@@ -87,8 +87,8 @@ class Pictures3D:
 
     def _mesh(self, frame):
         """The cells behind the plane through the middle of the box that faces the camera."""
-        from mesh_reader import read_mesh
-        points, cells, phi = read_mesh(self.run.mesh(frame))
+        mesh = self.run.mesh(frame)
+        points, cells, phi = mesh.points, mesh.cells, mesh.point_data["phi"]
         toward = self.studio.toward_camera
         axis = int(numpy.argmax(abs(toward[:2])))
         middle = 0.5 * (self.run.lower + self.run.upper)[axis]
@@ -175,8 +175,8 @@ class Cutaway(Pictures3D):
         self.studio.light(0.6, (0.3, 0.2, 1))
 
     def draw(self, frame, path):
-        from mesh_reader import read_mesh
-        points, cells, phi = read_mesh(self.run.mesh(frame))
+        mesh = self.run.mesh(frame)
+        points, cells, phi = mesh.points, mesh.cells, mesh.point_data["phi"]
         axis = int(numpy.argmax(abs(self.studio.toward_camera[:2])))
         side = numpy.sign(self.studio.toward_camera[axis])
         middle = 0.5 * (self.run.lower + self.run.upper)[axis]

@@ -14,10 +14,12 @@ of x with their frequency. HEIGHT in m; --from leaves out what came before."""
 
 import argparse
 import sys
+from pathlib import Path
 
 import numpy
 
-from run_output import DataError, Run
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+from treacle import DataError, Run
 
 
 def cut_centre(points, triangles, height):

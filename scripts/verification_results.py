@@ -13,7 +13,7 @@ from pathlib import Path
 from cases import Program
 from exact_cases import CLOSED_CASES, VISCOUS_CASES
 from free_surface_cases import FREE_SURFACE_CASES
-from run_output import read_parameters
+from treacle import read_parameters
 
 ROOT = Path(__file__).resolve().parent.parent
 FILE = ROOT / "doc/verification/results.json"
