@@ -17,7 +17,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
-from treacle.command import parser, run_command  # noqa: E402
+from treacle.command import new_parser, run_command  # noqa: E402
 
 
 def report(times, centres):
@@ -35,12 +35,12 @@ def report(times, centres):
 
 
 def main():
-    arguments = parser(__doc__)
-    arguments.add_argument("directory")
-    arguments.add_argument("height", type=float)
-    arguments.add_argument("--from", dest="start", type=float, default=0)
-    arguments.add_argument("--plot")
-    options = arguments.parse_args()
+    parser = new_parser(__doc__)
+    parser.add_argument("directory")
+    parser.add_argument("height", type=float)
+    parser.add_argument("--from", dest="start", type=float, default=0)
+    parser.add_argument("--plot")
+    options = parser.parse_args()
     from treacle import Run
     from treacle.stream import plot, track
     times, centres = track(Run(options.directory), options.height, options.start)

@@ -9,7 +9,7 @@ from pathlib import Path
 from treacle.errors import DataError
 
 
-def parser(text):
+def new_parser(text):
     """A parser of arguments whose help begins with this text, as it stands."""
     return argparse.ArgumentParser(description=text,
                                    formatter_class=argparse.RawDescriptionHelpFormatter)
