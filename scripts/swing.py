@@ -1,16 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) the Treacle authors
+"""Follows the centre of a falling stream at some height: how a rope coils and a sheet folds.
 
-"""Follow the centre of a falling stream at some height: how a rope coils and a
-sheet folds.
+    scripts/swing.py DIRECTORY HEIGHT [--from TIME] [--plot FILE.png]
 
-usage: swing.py DIRECTORY HEIGHT [--from TIME] [--plot FILE.png]
-
-Prints time and centre of each frame's cut (the mean over the surface's edges
-that cross the height, by length), then what coiling and folding theory speak of:
-revolutions about the mean centre, their frequency and mean radius, and reversals
-of x with their frequency. HEIGHT in m; --from leaves out what came before."""
+Prints time and centre of each frame's cut (the mean along the curve in which the height cuts
+the surface), then what coiling and folding theory speak of: revolutions about the mean centre,
+their frequency and mean radius, and reversals of x with their frequency. HEIGHT in m; --from
+leaves out what came before.
+"""
 
 import math
 import sys
@@ -36,10 +35,10 @@ def report(times, centres):
 
 def main():
     parser = new_parser(__doc__)
-    parser.add_argument("directory")
-    parser.add_argument("height", type=float)
-    parser.add_argument("--from", dest="start", type=float, default=0)
-    parser.add_argument("--plot")
+    parser.add_argument("directory", metavar="DIRECTORY")
+    parser.add_argument("height", metavar="HEIGHT", type=float)
+    parser.add_argument("--from", dest="start", metavar="TIME", type=float, default=0)
+    parser.add_argument("--plot", metavar="FILE.png")
     options = parser.parse_args()
     from treacle import Run
     from treacle.stream import plot, track
