@@ -17,8 +17,8 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "scripts"))
-from statistics import read_statistics  # noqa: E402
+sys.path.insert(0, str(ROOT / "python"))
+from treacle import read_statistics  # noqa: E402
 
 COUPLINGS = ["split", "split with first projection", "coupled"]
 SCENES = {2: "coupling_2d", 3: "coupling"}

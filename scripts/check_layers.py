@@ -1,90 +1,30 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) the Treacle authors
+"""Checks that the house has one direction: a file includes only what stands in its own room
+or in a group before it (treacle.layers.GROUPS); rooms of one group do not know each other,
+and modules (x.h with x.cc) form no cycle.
 
-"""Check that the house has one direction: a file includes only what stands in
-its own room or in a group before it in GROUPS; rooms of one group do not know each
-other, and modules (x.h with x.cc) form no cycle.
-
-usage: check_layers.py [ROOT]    prints the offending lines, exit code 1 if any
+    scripts/check_layers.py [ROOT]    prints the offending lines, exit code 1 if any
 """
 
-import pathlib
-import re
 import sys
+from pathlib import Path
 
-GROUPS = [["base"], ["geometry", "solvers"], ["mesh", "scene"], ["fields"],
-          ["surface", "pressure", "viscosity"], ["transport", "dynamics"], ["io"],
-          ["simulator"], ["main"]]
-INCLUDE = re.compile(r'\s*#\s*include\s*[<"]((?:treacle/|\.)[^>"]*)[>"]')
-
-
-def room(module):
-    """The room of a module like mesh/octree or main."""
-    return module.split("/")[0]
-
-
-def group(name):
-    """The index of the group that a room belongs to, or None."""
-    return next((i for i, rooms in enumerate(GROUPS) if name in rooms), None)
-
-
-def includes(root):
-    """Yield (place, line, including module, included module)."""
-    for folder in (root / "include" / "treacle", root / "source"):
-        for path in sorted(folder.rglob("*")):
-            if path.suffix not in (".h", ".cc") or path.name == "pch.h":
-                continue
-            module = path.relative_to(folder).with_suffix("").as_posix()
-            for number, line in enumerate(path.read_text().splitlines(), 1):
-                match = INCLUDE.match(line)
-                if match:
-                    target = match[1].removeprefix("treacle/").removesuffix(".h")
-                    place = f"{path.relative_to(root)}:{number}"
-                    yield place, line.strip(), module, target
-
-
-def find_cycle(graph):
-    """A list of modules that include each other in a ring, or None."""
-    done, path = set(), []
-
-    def visit(module):
-        if module in path:
-            return path[path.index(module):] + [module]
-        if module in done:
-            return None
-        path.append(module)
-        for target in sorted(graph.get(module, ())):
-            cycle = visit(target)
-            if cycle:
-                return cycle
-        path.pop()
-        done.add(module)
-        return None
-
-    return next(filter(None, map(visit, sorted(graph))), None)
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+from treacle.command import new_parser, run_command  # noqa: E402
 
 
 def main():
-    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent)
-    problems, graph = [], {}
-    for place, line, module, target in includes(root):
-        here, there = room(module), room(target)
-        if group(here) is None:
-            problems.append(f"{place}: \"{module}\" is in no room of GROUPS")
-        elif group(there) is None:
-            problems.append(f"{place}: {line}  (in no room of GROUPS)")
-        elif here != there and group(there) >= group(here):
-            problems.append(f"{place}: {line}  ({here} must not know {there})")
-        if target != module:
-            graph.setdefault(module, set()).add(target)
-
-    cycle = find_cycle(graph)
-    if cycle:
-        problems.append("cycle: " + " -> ".join(cycle))
-    print("\n".join(problems) if problems else "rooms: in order")
-    return 1 if problems else 0
+    parser = new_parser(__doc__)
+    parser.add_argument("root", metavar="ROOT", nargs="?", type=Path)
+    arguments = parser.parse_args()
+    from treacle.layers import problems
+    from treacle.repository import ROOT
+    found = list(problems(arguments.root or ROOT))
+    print("\n".join(found) if found else "rooms: in order")
+    return 1 if found else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_command(main)

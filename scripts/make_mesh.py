@@ -1,91 +1,38 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) the Treacle authors
+"""Writes a mesh of triangles for a symmetric container in 2D as Gmsh's .msh (version 2.2).
 
-"""Write a mesh of triangles for a symmetric container in 2D as Gmsh's .msh (version 2.2).
+    scripts/make_mesh.py OUT.msh PROFILE SIZE
 
-usage: make_mesh.py OUT.msh PROFILE SIZE
-  PROFILE  half widths at heights, from the bottom up, with straight walls between them:
-           height:half_width,height:half_width,...
-  SIZE     of the triangles' edges
-A bottle:  make_mesh.py bottle.msh 0:0.5,0.1:0.5,0.7:0.12,1:0.12 0.03
+PROFILE: half widths at heights, from the bottom up, with straight walls between them:
+height:half_width,height:half_width,...; SIZE: of the triangles' edges. A bottle:
+
+    scripts/make_mesh.py bottle.msh 0:0.5,0.1:0.5,0.7:0.12,1:0.12 0.03
 """
 
 import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+from treacle.command import new_parser, run_command  # noqa: E402
 
 
-def half_width(profile, y):
-    for (y0, w0), (y1, w1) in zip(profile, profile[1:]):
-        if y <= y1:
-            return w0 + (w1 - w0) * (y - y0) / (y1 - y0)
-    return profile[-1][1]
-
-
-def heights(profile, size):
-    """Of the rows of points: about equilateral triangles, a row at each corner."""
-    result = [profile[0][0]]
-    for (y0, _), (y1, _) in zip(profile, profile[1:]):
-        n = max(1, round((y1 - y0) / (0.866 * size)))
-        result += [y0 + (y1 - y0) * k / n for k in range(1, n + 1)]
-    return result
-
-
-def row(width, size, is_odd):
-    """Points from wall to wall; odd rows begin and end with half an edge."""
-    n = max(1, round(2 * width / size))
-    edge = 2 * width / n
-    if is_odd:
-        return [-width] + [-width + (k + 0.5) * edge for k in range(n)] + [width]
-    return [-width + k * edge for k in range(n + 1)]
-
-
-def zip_rows(points, low, high):
-    """Triangles between two rows of point numbers, by the shorter diagonal."""
-    def length2(a, b):
-        return sum((s - t) ** 2 for s, t in zip(points[a], points[b]))
-
-    i = j = 0
-    while i + 1 < len(low) or j + 1 < len(high):
-        if j + 1 == len(high) or (i + 1 < len(low) and
-                                  length2(low[i + 1], high[j]) <= length2(low[i], high[j + 1])):
-            yield low[i], low[i + 1], high[j]
-            i += 1
-        else:
-            yield low[i], high[j + 1], high[j]
-            j += 1
-
-
-def make(profile, size):
-    points, cells, last = [], [], None
-    for k, y in enumerate(heights(profile, size)):
-        xs = row(half_width(profile, y), size, k % 2)
-        this = range(len(points), len(points) + len(xs))
-        points += [(x, y) for x in xs]
-        if last is not None:
-            cells += zip_rows(points, last, this)
-        last = this
-    return points, cells
-
-
-def write(path, points, cells):
-    with open(path, "w") as out:
-        out.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(points)}\n")
-        for k, (x, y) in enumerate(points, 1):
-            out.write(f"{k} {x:.7g} {y:.7g} 0\n")
-        out.write(f"$EndNodes\n$Elements\n{len(cells)}\n")
-        for k, cell in enumerate(cells, 1):
-            out.write(f"{k} 2 2 0 1 {' '.join(str(v + 1) for v in cell)}\n")
-        out.write("$EndElements\n")
+def profile(text):
+    return [tuple(map(float, pair.split(":"))) for pair in text.split(",")]
 
 
 def main():
-    if len(sys.argv) != 4:
-        sys.exit(__doc__.strip())
-    profile = [tuple(map(float, pair.split(":"))) for pair in sys.argv[2].split(",")]
-    points, cells = make(profile, float(sys.argv[3]))
-    write(sys.argv[1], points, cells)
-    print(f"{sys.argv[1]}: {len(points)} points, {len(cells)} triangles")
+    parser = new_parser(__doc__)
+    parser.add_argument("mesh", metavar="OUT.msh")
+    parser.add_argument("profile", metavar="PROFILE", type=profile)
+    parser.add_argument("size", metavar="SIZE", type=float)
+    arguments = parser.parse_args()
+    from treacle.containers import mesh_of, write
+    points, cells = mesh_of(arguments.profile, arguments.size)
+    write(arguments.mesh, points, cells)
+    print(f"{arguments.mesh}: {len(points)} points, {len(cells)} triangles")
 
 
 if __name__ == "__main__":
-    main()
+    run_command(main)

@@ -9,12 +9,11 @@
 """
 
 import argparse
-import os
-import shutil
-import subprocess
 import sys
+from pathlib import Path
 
-from run_output import DataError, Run
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+from treacle.command import new_parser, run_command  # noqa: E402
 
 
 def numbers(text, separator, count, convert):
@@ -25,8 +24,7 @@ def numbers(text, separator, count, convert):
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = new_parser(__doc__)
     parser.add_argument("directory", help="the run's output directory")
     parser.add_argument("--frames", help="start:stop:step, or numbers like 0,10,-1 "
                         "(negative: from the end); default: all")
@@ -47,26 +45,9 @@ def parse_arguments():
     return parser.parse_args()
 
 
-def select(frames, text):
-    """The frames that the text names, as a slice of the frame numbers or a list."""
-    if text is None:
-        return frames
-    try:
-        if ":" in text:
-            start, stop, step = ([int(s) if s else None for s in text.split(":")] + [None])[:3]
-            wanted = range(frames[-1] + 1)[start:stop:step]
-        else:
-            wanted = [int(s) if int(s) >= 0 else frames[int(s)] for s in text.split(",")]
-    except (ValueError, IndexError):
-        raise DataError(f"--frames '{text}': give start:stop:step or numbers like 0,10,-1")
-    chosen = [k for k in frames if k in set(wanted)]
-    if not chosen:
-        raise DataError(f"there are no frames '{text}'; the run has {frames[0]} to {frames[-1]}")
-    return chosen
-
-
 def readable(run, frames):
     """The frames whose surface can be read, with a line for each that cannot."""
+    from treacle import DataError
     for frame in frames:
         try:
             run.surface(frame)
@@ -75,58 +56,25 @@ def readable(run, frames):
             print(f"render: left out: {error}", file=sys.stderr)
 
 
-def film(pictures, path, fps):
-    command = ["ffmpeg", "-loglevel", "error", "-y", "-f", "image2pipe", "-framerate", str(fps),
-               "-c:v", "png", "-i", "-", "-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2",
-               "-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart",
-               str(path)]
-    with subprocess.Popen(command, stdin=subprocess.PIPE) as process:
-        for picture in pictures:
-            process.stdin.write(picture.read_bytes())
-        process.stdin.close()
-    if process.returncode:
-        raise DataError(f"ffmpeg could not write '{path}'")
-
-
 def main():
-    options = parse_arguments()
-    run = Run(options.directory)
-    if run.dim == 3 and not os.environ.get("DISPLAY"):
-        if not shutil.which("xvfb-run"):
-            raise DataError("3D pictures need a display or xvfb-run (package xvfb)")
-        os.execvp("xvfb-run", ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24",
-                               sys.executable, *sys.argv])
-    try:
-        if run.dim == 3:
-            from render_3d import Pictures3D as Pictures
-        else:
-            from render_2d import Pictures2D as Pictures
-    except ImportError as error:
-        raise DataError(f"{error}: see scripts/install_packages, and use /usr/bin/python3")
-
-    frames = list(readable(run, select(run.frames, options.frames)))
+    arguments = parse_arguments()
+    from treacle import DataError, Run
+    from treacle.render.display import restart_with_display
+    from treacle.render.pictures import Options, draw, film, real_time, select
+    run = Run(arguments.directory)
+    if run.dim == 3:
+        restart_with_display()
+    frames = list(readable(run, select(run.frames, arguments.frames)))
     if not frames:
         raise DataError("no frame can be read")
-    directory = run.directory / "pictures"
-    directory.mkdir(exist_ok=True)
-    pictures = Pictures(run, frames, options)
-    name = "mesh" if options.mesh else "surface"
-    paths = [directory / f"{name}_{frame:05d}.png" for frame in frames]
-    for frame, path in zip(frames, paths):
-        pictures.draw(frame, path)
-    print(f"{len(paths)} pictures in {directory}")
-
-    if len(paths) > 1 and not options.no_film:
-        if not shutil.which("ffmpeg"):
-            raise DataError("the film needs ffmpeg")
-        interval = (run.time(frames[-1]) - run.time(frames[0])) / (len(frames) - 1)
-        path = directory / ("film.mp4" if name == "surface" else "film_mesh.mp4")
-        film(paths, path, options.fps or min(60, max(10, 1 / interval if interval > 0 else 25)))
+    paths = draw(run, frames, Options(arguments.view, arguments.size, arguments.focus,
+                                      arguments.colour, arguments.mesh))
+    print(f"{len(paths)} pictures in {paths[0].parent}")
+    if len(paths) > 1 and not arguments.no_film:
+        path = paths[0].with_name("film_mesh.mp4" if arguments.mesh else "film.mp4")
+        film(paths, path, arguments.fps or real_time(run, frames))
         print(f"film: {path}")
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except DataError as error:
-        sys.exit(f"render: {error}")
+    run_command(main)

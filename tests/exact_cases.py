@@ -7,9 +7,9 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "scripts"))
-from verification_results import CASES  # noqa: E402
-from verification_runs import run  # noqa: E402
+sys.path.insert(0, str(ROOT / "python"))
+from treacle.verification.results import CASES  # noqa: E402
+from treacle.verification.runs import run  # noqa: E402
 
 # name, level or None for the coarsest of scripts/verify
 COARSE = [("A6 exponential, cut", None), ("B2 cut wall", None), ("B5", None), ("C2 fall", None), ("C2 flight", None),

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) the Treacle authors
-"""The liquid and the walls of a frame on a mesh of triangles from a file: such a
-container is no box that the surface could be closed along."""
+"""Parts of a mesh to be drawn. A container from a file is no box that the surface could be
+closed along: there the liquid is drawn by triangles."""
 
 import numpy
 
@@ -31,3 +31,14 @@ def weld(points, cells):
     """Without the copies of points that each rank's piece has."""
     points, index = numpy.unique(points, axis=0, return_inverse=True)
     return points, index.reshape(-1)[cells]
+
+
+def boundary_faces(points, cells):
+    """Faces (n x 3 points) that belong to one cell only, and that cell. The points may
+    be repeated from cell to cell."""
+    _, label = numpy.unique(points.astype("f4"), axis=0, return_inverse=True)
+    faces = numpy.concatenate([numpy.delete(cells, k, axis=1) for k in range(4)])
+    _, first, count = numpy.unique(numpy.sort(label[faces], axis=1), axis=0,
+                                   return_index=True, return_counts=True)
+    alone = first[count == 1]
+    return faces[alone], alone % len(cells)

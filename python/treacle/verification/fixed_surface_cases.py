@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) the Treacle authors
-"""The exact cases of the viscous step (section A) and of closed or fixed regions (section B),
+"""The cases of the viscous step (section A) and of closed or fixed regions (section B),
 for scripts/verify."""
 
 import math
 
-from cases import EULER, Case, Program
-from measures import at, last, rate
+from treacle.verification.cases import EULER, Case, Program
+from treacle.verification.measures import at, last, rate
 
 U = "Probe 1 velocity x (m/s)"
 V = "Probe 1 velocity y (m/s)"

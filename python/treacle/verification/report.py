@@ -5,9 +5,11 @@
 import math
 import re
 
-from verification_plots import plot
-from verification_results import (CASES, DEFAULT_MAPPING, ENERGY_TOLERANCE, NEGLIGIBLE, ROOT,
-                                  VOLUME_TOLERANCE, format_error, limits_exceeded, load, rows)
+from treacle.repository import ROOT
+from treacle.verification.plots import plot
+from treacle.verification.results import (CASES, DEFAULT_MAPPING, ENERGY_TOLERANCE, NEGLIGIBLE,
+                                          VOLUME_TOLERANCE, format_error, limits_exceeded, load,
+                                          rows)
 
 DOCUMENT = ROOT / "doc/verification.md"
 DIRECTORY = ROOT / "doc/verification"

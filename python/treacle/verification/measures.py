@@ -3,12 +3,11 @@
 """What the exact cases measure: numbers from the statistics and the surfaces of a run."""
 
 import math
-from pathlib import Path
 
 import numpy
 
-from run_output import Run, read_parameters
-from statistics import read_statistics
+from treacle import Run
+from treacle.stream import centre_of_cut
 
 TIME = "Time (s)"
 
@@ -17,18 +16,10 @@ class Results:
     """A run that has ended: columns of its statistics by name, and its surfaces."""
 
     def __init__(self, directory):
-        self.directory = directory
-        self.table = read_statistics(directory)
-        self.parameters = read_parameters(Path(directory) / "parameters.prm")
-        self._run = None
+        self.run = Run(directory)
 
     def __getitem__(self, column):
-        return self.table[column]
-
-    @property
-    def run(self):
-        self._run = self._run or Run(self.directory)
-        return self._run
+        return self.run.statistics[column]
 
     def surface(self, time):
         """Of the frame of this time."""
@@ -50,8 +41,9 @@ class Results:
         """The largest rise of the total energy above what it was before, over the
         largest kinetic energy plus the range of the potential one; 0 where the surface
         is kept, for then gravity goes on working, where an emitter works, and where nothing moves."""
-        emitted = (numpy.any(values) for name, values in self.table.items() if "Emitted" in name)
-        if self.parameters.get("Steps/Surface") == "false" or any(emitted):
+        emitted = (numpy.any(values) for name, values in self.run.statistics.items()
+                   if "Emitted" in name)
+        if self.run.parameters.get("Steps/Surface") == "false" or any(emitted):
             return 0.
         energy, potential = self.energy(), self["Potential energy (J)"]
         rise = numpy.max(energy - numpy.minimum.accumulate(energy))
@@ -60,9 +52,8 @@ class Results:
 
     def leaf_size(self, level):
         """The edge (m) of a leaf."""
-        lower, upper = (numpy.array([float(x) for x in self.parameters[f"Domain/{which} corner"].split(",")])
-                        for which in ("Lower", "Upper"))
-        return numpy.min(upper - lower) / (int(self.parameters["Mesh/Root cells"]) * 2 ** level)
+        edge = numpy.min(self.run.upper - self.run.lower)
+        return edge / (int(self.run.get("Mesh/Root cells")) * 2 ** level)
 
     def fallbacks(self):
         """Coupled solves that were taken by the split."""
@@ -159,30 +150,17 @@ def front(time, y=0):
     return value
 
 
-def middle_of_slice(surface, z):
-    """Of the curve in which a plane cuts a surface in space (x, y)."""
-    corners = surface.points[surface.facets]
-    above = corners[:, :, 2] >= z
-    corners, above = (a[above.any(axis=1) != above.all(axis=1)] for a in (corners, above))
-    weights, middles = [], []
-    for i in range(3):  # the corner alone on its side of the plane
-        alone = (above[:, i] != above[:, i - 1]) & (above[:, i] != above[:, i - 2])
-        a, b, c = (corners[alone][:, i - k] for k in range(3))
-        ends = [a + ((z - a[:, 2]) / (other[:, 2] - a[:, 2]))[:, None] * (other - a) for other in (b, c)]
-        weights.append(numpy.linalg.norm(ends[1] - ends[0], axis=1))
-        middles.append((ends[0] + ends[1])[:, :2] / 2)
-    weights, middles = numpy.concatenate(weights), numpy.concatenate(middles)
-    return weights @ middles / numpy.sum(weights)
-
-
 def turning(axis, z, start, end=math.inf):
     """The angular frequency at which the rope that passes the height z goes round a vertical axis."""
     def value(results):
-        frames = [frame for frame in results.run.frames
-                  if start - 1e-9 <= results.run.time(frame) <= end + 1e-9]
-        arms = numpy.array([middle_of_slice(results.run.surface(frame), z) for frame in frames]) - axis
+        run = results.run
+        frames = [frame for frame in run.frames if start - 1e-9 <= run.time(frame) <= end + 1e-9]
+        centres = [centre_of_cut(run.surface(frame), z) for frame in frames]
+        if any(centre is None for centre in centres):
+            raise ValueError(f"the rope does not always pass z = {z}")
+        arms = numpy.array(centres) - axis
         angles = numpy.unwrap(numpy.arctan2(arms[:, 1], arms[:, 0]))
-        times = [results.run.time(frame) for frame in frames]
+        times = [run.time(frame) for frame in frames]
         return abs(numpy.polyfit(times, angles, 1)[0])
     return value
 

@@ -2,19 +2,18 @@
 # Copyright (C) the Treacle authors
 """Pictures of two-dimensional runs: the liquid's outline, filled, or the mesh."""
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.figure import Figure
 from matplotlib.patches import Circle, PathPatch, Rectangle
 from matplotlib.path import Path
 
-from outline import liquid_loops
+from treacle.outline import liquid_loops
+from treacle.render.cells import walls, weld, wet_polygons
 
 LIQUID, EDGE, SOLID, FRAME = "#f0b43c", "#8a5200", "#9aa0a6", "#3c4043"
-LEVEL_SET = matplotlib.colors.LinearSegmentedColormap.from_list(
+LEVEL_SET = LinearSegmentedColormap.from_list(
     "level set", ["#b86a00", "#f0b43c", "#fbe7b8", "#e9eff5", "#b9cadb", "#7f9bb6"])
 
 
@@ -25,6 +24,7 @@ def filled(loops, **style):
 
 
 def draw_box(axes, run):
+    """The domain and its solids, with a margin."""
     if not run.has_mesh_file:
         axes.add_patch(Rectangle(run.lower, *(run.upper - run.lower), fill=False,
                                  edgecolor=FRAME, linewidth=1.5, zorder=5))
@@ -47,6 +47,8 @@ def draw_box(axes, run):
 
 
 class Pictures2D:
+    """draw() makes the picture of a frame; what the frames share is known from the start."""
+
     def __init__(self, run, frames, options):
         self.run, self.options = run, options
         self.fastest = 0.0
@@ -56,8 +58,8 @@ class Pictures2D:
     def draw(self, frame, path):
         run, options = self.run, self.options
         width, height = options.size
-        figure, axes = plt.subplots(figsize=(width / 100, height / 100), dpi=100,
-                                    layout="constrained")
+        figure = Figure((width / 100, height / 100), dpi=100, layout="constrained")
+        axes = figure.subplots()
         surface = run.surface(frame)
         points = surface.points[:, :2]
         if options.mesh:
@@ -80,12 +82,10 @@ class Pictures2D:
         axes.set_title(f"t = {run.time(frame):.3f} s", color=FRAME)
         axes.set(xlabel="x (m)", ylabel="y (m)")
         figure.savefig(path)
-        plt.close(figure)
 
     def _container(self, axes, frame):
-        from mesh_liquid import walls, weld, wet_polygons
-        from mesh_reader import read_mesh
-        points, cells, phi = read_mesh(self.run.mesh(frame))
+        mesh = self.run.mesh(frame)
+        points, cells, phi = mesh.points, mesh.cells, mesh.point_data["phi"]
         polygons = list(wet_polygons(points[:, :2], cells, phi))
         axes.add_collection(PolyCollection(polygons, facecolors=LIQUID, edgecolors=LIQUID,
                                            linewidths=0.3))
@@ -94,8 +94,8 @@ class Pictures2D:
                                            capstyle="round", zorder=5))
 
     def _mesh(self, figure, axes, frame):
-        from mesh_reader import read_mesh
-        points, cells, phi = read_mesh(self.run.mesh(frame))
+        mesh = self.run.mesh(frame)
+        points, cells, phi = mesh.points, mesh.cells, mesh.point_data["phi"]
         limit = 0.1 * (self.run.upper - self.run.lower).min()
         polygons = PolyCollection(points[cells][:, :, :2], array=phi[cells].mean(axis=1),
                                   cmap=LEVEL_SET, clim=(-limit, limit),

@@ -8,14 +8,13 @@ import math
 import os
 import re
 from dataclasses import dataclass
-from pathlib import Path
 
-from cases import Program
-from exact_cases import CLOSED_CASES, VISCOUS_CASES
-from free_surface_cases import FREE_SURFACE_CASES
-from run_output import read_parameters
+from treacle import read_parameters
+from treacle.repository import ROOT
+from treacle.verification.cases import Program
+from treacle.verification.fixed_surface_cases import CLOSED_CASES, VISCOUS_CASES
+from treacle.verification.free_surface_cases import FREE_SURFACE_CASES
 
-ROOT = Path(__file__).resolve().parent.parent
 FILE = ROOT / "doc/verification/results.json"
 CASES = {**VISCOUS_CASES, **CLOSED_CASES, **FREE_SURFACE_CASES}
 DEFAULT_MAPPING = read_parameters(ROOT / "doc/parameters.prm")["Viscosity/Mapping"]

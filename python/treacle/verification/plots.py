@@ -5,14 +5,12 @@
 import io
 
 import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy
+from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
 from PIL import Image
 
-from verification_results import rows
+from treacle.verification.results import rows
 
 COLUMNS = 4
 COLOURS = ("#0b6fa4", "#c8511b", "#2a8c4a", "#8a4fa3")
@@ -38,16 +36,15 @@ def plot(path, by, results):
     if not every:
         return False
     n_rows = -(-len(every) // COLUMNS)
-    with plt.rc_context(STYLE):
-        figure, axes = plt.subplots(n_rows, COLUMNS, figsize=(9.6, 2.1 * n_rows + 0.1), squeeze=False,
-                                    layout="constrained")
+    with matplotlib.rc_context(STYLE):
+        figure = Figure((9.6, 2.1 * n_rows + 0.1), layout="constrained")
+        axes = figure.subplots(n_rows, COLUMNS, squeeze=False)
         for axis, panel in zip(axes.flat, every):
             draw(axis, by, *panel)
         for axis in axes.flat[len(every):]:
             axis.remove()
         image = io.BytesIO()
         figure.savefig(image, dpi=100)
-        plt.close(figure)
     Image.open(image).convert("RGB").quantize(128).save(path, optimize=True)  # a third of the size
     return True
 

@@ -11,8 +11,9 @@ import threading
 import time
 from pathlib import Path
 
-from measures import Results
-from verification_results import ROOT
+from treacle.repository import ROOT
+from treacle.verification.cases import Program
+from treacle.verification.measures import Results
 
 BUILD = ROOT / "build/release"
 ERROR = "treacle: error: "
@@ -40,6 +41,12 @@ def execute(line, **options):
         own = [text.removeprefix(ERROR) for text in said if text.startswith(ERROR)]
         raise Failed([f"exit code {done.returncode}", *said[-1:], *own[:1]][-1])
     return done.stdout
+
+
+def build(cases):
+    """The program, and those of tests/ that the cases need."""
+    programs = {f"{case.file}.release" for case in cases if isinstance(case, Program)}
+    subprocess.run(["ninja", "-C", BUILD, "treacle", *programs], check=True)
 
 
 def run(case, level, time_step, settings, program=BUILD / "treacle", ranks=1):

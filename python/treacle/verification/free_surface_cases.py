@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) the Treacle authors
-"""The exact cases with a free surface (section C), for scripts/verify. Where nothing else is said the
+"""The cases with a free surface (section C), for scripts/verify. Where nothing else is said the
 error on the finest mesh is held to 3 %."""
 
 from math import exp, pi, sqrt
 
 import numpy
 
-from cases import EULER, FIRST_PROJECTION, SPLIT, Case, Program
-from measures import (at, coil_radius, front, height, interpolated, last, surface_rate, turning,
-                      wave)
+from treacle.verification.cases import EULER, FIRST_PROJECTION, SPLIT, Case, Program
+from treacle.verification.measures import (at, coil_radius, front, height, interpolated, last,
+                                           surface_rate, turning, wave)
 
 RIGHT = "Liquid maximum x (m)"
 SHALLOW = {"Domain/Upper corner": "1, 1", "Mesh/Root cells": "2",

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) the Treacle authors
-"""The liquid in a rectangle, from the oriented edges of its free surface.
+"""What bounds the liquid in a rectangle or a box, from its free surface.
 
 The free surface ends at the walls; the outline of the liquid goes on along
 them. The liquid is on the left of an edge, so it is on the left of the outline.
@@ -77,7 +77,35 @@ def liquid_loops(points, edges, lower, upper):
     return loops
 
 
+def wall_caps(points, facets, lower, upper):
+    """Where the liquid touches a wall of the box its surface is open. Yields for each such
+    wall the polygons (k x 3) that close it."""
+    edges = numpy.concatenate([facets[:, [0, 1]], facets[:, [1, 2]], facets[:, [2, 0]]])
+    n = len(points)
+    edges = edges[~numpy.isin(edges @ [n, 1], edges @ [1, n])]  # no triangle beyond
+    tolerance = 1e-5 * (upper - lower).max()
+    for axis in range(3):
+        for wall, order in (lower[axis], (2, 1)), (upper[axis], (1, 2)):
+            on_wall = (abs(points[edges, axis] - wall) < tolerance).all(axis=1)
+            # seen from outside, the cap's edges run against the surface's
+            plane = [(axis + k) % 3 for k in order]
+            caps = []
+            for loop in liquid_loops(points[:, plane], edges[on_wall][:, ::-1],
+                                     lower[plane], upper[plane]):
+                caps.append(numpy.full((len(loop), 3), wall))
+                caps[-1][:, plane] = loop
+            if caps:
+                yield caps
+
+
+def outline_of(run, frame):
+    """The liquid_loops of a frame of a Run in two dimensions."""
+    surface = run.surface(frame)
+    return liquid_loops(surface.points[:, :2], surface.facets, run.lower, run.upper)
+
+
 def area(loop):
+    """Of a polygon (k x 2), positive if it is counter-clockwise."""
     x, y = loop.T
     return 0.5 * numpy.sum(x * numpy.roll(y, -1) - y * numpy.roll(x, -1))
 

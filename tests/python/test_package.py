@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) the Treacle authors
+"""What the package treacle reads of a run, and what it says where that cannot be read."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy
+from synthetic_run import write_run
+
+from treacle import DataError, Run, read_parameters, read_statistics, read_surface
+from treacle.layers import problems
+from treacle.stream import centre_of_cut, coiling, folding
+
+
+class InDirectory(unittest.TestCase):
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.path = Path(place.name)
+        self.run_path = self.path / "run"
+        write_run(self.run_path)
+
+    def fails(self, text, function, *arguments):
+        """With a DataError of one line that holds the text."""
+        with self.assertRaises(DataError) as caught:
+            function(*arguments)
+        self.assertIn(text, str(caught.exception))
+        self.assertNotIn("\n", str(caught.exception))
+
+
+class StatisticsTest(InDirectory):
+    def test_columns(self):
+        for path in self.run_path, self.run_path / "statistics", str(self.run_path):
+            table = read_statistics(path)
+            self.assertEqual(list(table), ["Time step number", "Time (s)", "Liquid maximum y (m)"])
+            numpy.testing.assert_array_equal(table["Time (s)"], [0, 0.25, 0.5])
+            numpy.testing.assert_array_equal(table["Liquid maximum y (m)"], [0.75, 0.5, numpy.nan])
+
+    def test_row_being_written(self):
+        file = self.run_path / "statistics"
+        text = file.read_text()
+        for more in "3", "3 0.75", "3 0.75 0.12":
+            file.write_text(text + more)
+            self.assertEqual(read_statistics(file)["Time (s)"][-1], 0.5)
+        file.write_text(text + "3 0.75 0.125\n")
+        self.assertEqual(read_statistics(file)["Time (s)"][-1], 0.75)
+
+    def test_no_rows(self):
+        (self.path / "statistics").write_text("# 1: Time (s)\n")
+        self.assertEqual(read_statistics(self.path)["Time (s)"].shape, (0,))
+
+    def test_errors(self):
+        self.fails(f"there is no '{self.path}/statistics'", read_statistics, self.path)
+        table = read_statistics(self.run_path)
+        self.fails("statistics' has no column 'Time'", table.__getitem__, "Time")
+        self.fails("is not a table", read_statistics, self.run_path / "parameters.prm")
+        (self.path / "statistics").write_bytes(b"\xff\x00\n")
+        self.fails("cannot be read", read_statistics, self.path)
+
+
+class RunTest(InDirectory):
+    def test_parameters(self):
+        run = Run(str(self.run_path))
+        self.assertEqual(run.dim, 2)
+        self.assertEqual(run.parameters["Domain/Upper corner"], "2, 2")
+        self.assertEqual(run.parameters["Material/Viscosity"].split(), ["1", "+", "x"])
+        numpy.testing.assert_array_equal([run.lower, run.upper], [[0, 0], [2, 2]])
+        self.assertFalse(run.has_mesh_file)
+        solid, = run.solids()
+        self.assertEqual((solid.shape, solid.is_inverted), ("box", True))
+        numpy.testing.assert_array_equal(solid.numbers("Lower corner"), [0.5, 1.5])
+
+    def test_statistics(self):
+        run = Run(self.run_path)
+        self.assertEqual(run.statistics["Time (s)"].shape, (3,))
+        self.assertIs(run.statistics, run.statistics)
+
+    def test_frames(self):
+        run = Run(self.run_path)
+        self.assertEqual(run.frames, [0, 1, 3])
+        self.assertEqual([run.time(frame) for frame in run.frames], [0, 0.125, 1.5])
+        self.assertEqual([run.frame_at(time) for time in (-1, 0.1, 0.8, 0.9)], [0, 1, 1, 3])
+
+    def test_surfaces(self):
+        write_run(self.path / "3D", 3)
+        for dim, directory in (2, self.run_path), (3, self.path / "3D"):
+            surface = Run(directory).surface(1)
+            numpy.testing.assert_array_equal(surface.points,
+                                             [[0, 0.25, 0], [1, 0.25, 0], [0, 1.25, 0]])
+            self.assertEqual(surface.facets.shape, (3, 2) if dim == 2 else (1, 3))
+            self.assertEqual(surface.velocity.shape, (3, 3))
+            numpy.testing.assert_array_equal(surface.speed, [5, 5, 5])
+
+    def test_not_a_run(self):
+        self.fails("there is no directory", Run, self.path / "nowhere")
+        self.fails("there is no directory", Run, self.run_path / "statistics")
+        self.fails("is not the output directory of a run", Run, self.path)
+        parameters = self.run_path / "parameters.prm"
+        text = parameters.read_text()
+        for old, new, message in (
+                ("set Dimension ", "set Size ", "does not set 'Dimension'"),
+                ("= 2\n", "= two\n", "'Dimension' is neither 2 nor 3"),
+                ("0, 0", "0, 0, 0", "does not have 2 components"),
+                ("0, 0", "0, left", "'Domain/Lower corner' is not made of numbers: 0, left")):
+            parameters.write_text(text.replace(old, new, 1))
+            self.fails(message, Run, self.run_path)
+        parameters.write_bytes(b"\xff\xfe")
+        self.fails("cannot be read", Run, self.run_path)
+
+    def test_missing_parts(self):
+        run = Run(self.run_path)
+        self.fails("there is no surface", run.surface, 2)
+        self.fails("does not set 'End time'", run.get, "End time")
+        for path in (self.run_path / "frames").glob("surface_*"):
+            path.unlink()
+        (self.run_path / "statistics").unlink()
+        self.fails("there are no surfaces", getattr, run, "frames")
+        self.fails("there is no '", getattr, run, "statistics")
+        self.fails("there is no file", read_parameters, self.path / "nothing.prm")
+
+
+class SurfaceTest(InDirectory):
+    def test_damaged(self):
+        file = self.run_path / "frames/surface_00000.ply"
+        data = file.read_bytes()
+        for damaged, message in ((b"", "not a complete PLY"), (data[:90], "not a complete PLY"),
+                                 (data[:-4], "is damaged"), (b"solid" + data, "not a complete PLY"),
+                                 (data[:-4] + b"\x09\0\0\0", "names a vertex that is not there"),
+                                 (data.replace(b"property float x", b"property short x"), "is damaged")):
+            file.write_bytes(damaged)
+            self.fails(message, read_surface, file)
+
+    def test_ascii(self):
+        file = self.path / "a.ply"
+        file.write_text("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                        "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                        "end_header\n0 0 0\n1 0 0\n0 1 0.5\n3 0 1 2\n")
+        surface = read_surface(file)
+        self.assertEqual(surface.points[2].tolist(), [0, 1, 0.5])
+        self.assertEqual(surface.facets.tolist(), [[0, 1, 2]])
+        self.assertFalse(surface.velocity.any())
+
+
+class StreamTest(InDirectory):
+    def test_cut(self):
+        surface = read_surface(self.run_path / "frames/surface_00000.ply")
+        surface.points = numpy.array([[0, 0, 0], [2, 0, 0], [0, 2, 2.]])
+        surface.facets = numpy.array([[0, 1, 2]])
+        numpy.testing.assert_allclose(centre_of_cut(surface, 1), [0.5, 1])
+        self.assertIsNone(centre_of_cut(surface, 3))
+
+    def test_coiling_and_folding(self):
+        times = numpy.linspace(0, 1, 101)
+        angles = 6 * numpy.pi * times + 0.1
+        found = coiling(times, 0.5 * numpy.stack([numpy.cos(angles), numpy.sin(angles)], axis=1))
+        numpy.testing.assert_allclose(found, [3, 3, 0.5], rtol=0.02)
+        found = folding(times, numpy.stack([0.25 * numpy.sin(angles), 0 * times], axis=1))
+        numpy.testing.assert_allclose(found, [6, 3, 0.25], rtol=0.02)
+        self.assertIsNone(folding(times, numpy.stack([times, times], axis=1)))
+
+
+class LayersTest(InDirectory):
+    def test_order(self):
+        for name, text in (("include/treacle/base/a.h", "#include <treacle/mesh/b.h>\n"),
+                           ("include/treacle/mesh/b.h", "#include <treacle/base/a.h>\n"),
+                           ("source/attic/c.cc", "#include <treacle/base/a.h>\n")):
+            (self.path / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.path / name).write_text(text)
+        found = list(problems(self.path))
+        self.assertEqual(len(found), 3)
+        self.assertIn("base must not know mesh", found[0])
+        self.assertIn("in no room of GROUPS", found[1])
+        self.assertEqual(found[2], "cycle: base/a -> mesh/b -> base/a")
+
+
+class ImportTest(unittest.TestCase):
+    def test_light(self):
+        code = ("import sys, treacle; "
+                "sys.exit(not {'vtk', 'matplotlib', 'scipy', 'PIL'}.isdisjoint(sys.modules))")
+        subprocess.run([sys.executable, "-c", code], check=True)
+
+
+if __name__ == "__main__":
+    unittest.main()
