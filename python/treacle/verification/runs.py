@@ -44,8 +44,8 @@ def execute(line, **options):
 
 
 def build(cases):
-    """The program, and those of tests/ that the cases need."""
-    programs = {f"{case.file}.release" for case in cases if isinstance(case, Program)}
+    """The program, and that of the tests if cases need it."""
+    programs = ["treacle_tests"] if any(isinstance(case, Program) for case in cases) else []
     subprocess.run(["ninja", "-C", BUILD, "treacle", *programs], check=True)
 
 
@@ -98,20 +98,20 @@ def run_case(case, levels, settings, in_time, result):
 def run_program(case, levels, settings, result):
     result["levels"], result["h"] = list(levels), [0.5 ** level for level in levels]
     start = time.monotonic()
-    program = BUILD / f"tests/{case.file}.release" / f"{Path(case.file).name}.release"
+    program = [BUILD / "tests/treacle_tests", case.file]
     errors = result["errors"] = {}
     with tempfile.TemporaryDirectory() as directory:
         (Path(directory) / "results").symlink_to(ROOT / "results")
         if "{level}" in case.arguments:
             for level in levels:
-                text = execute([program, *(argument.format(level=level) for argument in case.arguments)],
+                text = execute([*program, *(argument.format(level=level) for argument in case.arguments)],
                                cwd=directory)
                 for quantity in case.tolerances:
                     value = float(re.search(rf"\b{quantity} ([-+.e\d]+)", text)[1])
                     errors.setdefault(quantity, []).append(value)
         else:
             settings = {**case.settings, **settings}
-            execute([program, *case.arguments, *levels,
+            execute([*program, *case.arguments, *levels,
                      *(f"{name}={value}" for name, value in settings.items())], cwd=directory)
             errors.update(errors_in((Path(directory) / "output").read_text(), case))
     result["seconds"] = [time.monotonic() - start]
