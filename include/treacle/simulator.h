@@ -73,7 +73,7 @@ namespace treacle
     std::string
     description_of_mesh() const;
 
-    /// One time step (doc/method.md, "A step").
+    /// One time step: the liquid moves, then what acts on it changes its velocity.
     void
     step(const double dt);
 
