@@ -78,7 +78,7 @@ namespace treacle
     , imported(imported_mesh<dim>(comm, parameters.imported))
     , prm(in_box_of_mesh(parameters, imported.get()))
     , parameters_as_used(parameters_as_used)
-    , scene(prm.scene)
+    , scene(prm.scene, comm)
     , time_step(prm.time_step)
     , tracking(prm.tracking)
     , dynamics(prm.dynamics, prm.steps)

@@ -113,7 +113,7 @@ namespace treacle
 
 
   template <int dim>
-  Scene<dim>::Scene(const Parameters &parameters)
+  Scene<dim>::Scene(const Parameters &parameters, const MPI_Comm &comm)
     : lower(parameters.lower_corner)
     , upper(parameters.upper_corner)
     , sticks(parse_wall_condition<dim>(parameters.wall_condition))
@@ -131,16 +131,17 @@ namespace treacle
       {
         const auto       &liquid = parameters.liquids[k];
         const std::string where  = numbered("Liquid", k);
-        liquids.push_back({Shape<dim>(liquid.shape, where),
+        liquids.push_back({Shape<dim>(liquid.shape, where, comm),
                            VectorExpression<dim>(liquid.velocity, where + "/Velocity"),
                            Material<dim>(liquid.material, where, &material)});
       }
     for (unsigned int k = 0; k < parameters.solids.size(); ++k)
       solids.emplace_back(parameters.solids[k],
                           numbered("Solid", k),
-                          BoundingBox<dim>({lower, upper}));
+                          BoundingBox<dim>({lower, upper}),
+                          comm);
     for (unsigned int k = 0; k < parameters.emitters.size(); ++k)
-      emitter_list.emplace_back(parameters.emitters[k], numbered("Emitter", k), material);
+      emitter_list.emplace_back(parameters.emitters[k], numbered("Emitter", k), material, comm);
   }
 
   template <int dim>

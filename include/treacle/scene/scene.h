@@ -45,8 +45,9 @@ namespace treacle
                      const unsigned int n_emitters = 0);
     };
 
-    /// Throws a UserError that names the parameter at fault.
-    explicit Scene(const Parameters &parameters);
+    /// Throws a UserError on all ranks that names the parameter at fault. Collective, for the
+    /// first rank reads files.
+    explicit Scene(const Parameters &parameters, const MPI_Comm &comm = MPI_COMM_SELF);
 
     const Point<dim> &
     lower_corner() const;
@@ -99,7 +100,8 @@ namespace treacle
     Point<dim>
     solid_centre(const unsigned int k, const double t) const;
 
-    /// Throws a UserError if a moving solid has left the box.
+    /// Throws a UserError if a moving solid has left the box, or its motion is not finite:
+    /// for all ranks together, before some of them ask where solids are at t.
     void
     check_solids(const double t) const;
 
