@@ -226,13 +226,17 @@ namespace treacle
     };
     const auto check = [&](const std::string &name, const auto &distance, const double time) {
       check_finite(name, distance);
-      bool in_box = false, outside_solids = false;
+      bool        in_box = false, outside_solids = false;
+      std::string error;
       for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
         if (const Point<dim> &x = mesh.node_position[node]; distance(x) < 0)
           {
-            in_box         = true;
-            outside_solids = outside_solids || scene.solid_distance(x, time) > 0;
+            in_box = true;
+            keep_error(error, [&] {
+              outside_solids = outside_solids || scene.solid_distance(x, time) > 0;
+            });
           }
+      throw_first(comm, error);
       require(Utilities::MPI::max(in_box ? 1 : 0, comm) == 1,
               name + (imported ? " lies outside the mesh, or is smaller than its cells: move it, "
                                  "or change Mesh/File." :
@@ -382,6 +386,7 @@ namespace treacle
     const BackwardDifference difference(dt, *state);
     info    = StepInfo<dim>();
     info.dt = dt;
+    scene.check_solids(state->time + dt);
     if (prm.steps.surface)
       move_surface(dt);
     else
