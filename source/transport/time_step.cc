@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/exchange.h>
+#include <treacle/base/maximum.h>
 #include <treacle/transport/time_step.h>
 
 namespace treacle
@@ -30,6 +32,31 @@ namespace treacle
                       Patterns::Selection("BDF2|backward Euler"));
   }
 
+  namespace
+  {
+    /// The largest gravity in the liquid, or in the box's middle as long as there is none
+    /// (m/s^2). Throws a UserError on all ranks if it is not finite in the liquid. Collective.
+    template <int dim>
+    double
+    maximum_gravity(const LiquidDomain<dim> &domain, const double time)
+    {
+      const Mesh<dim> &mesh   = domain.mesh;
+      double           result = -1; // none
+      std::string      error, ignored;
+      const auto       include = [&](const Point<dim> &x) {
+        result = std::max(result, domain.scene.gravity(x, time).norm());
+      };
+      for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+        if (domain.liquid_volume[c] > 0)
+          keep_error(error, [&] { include(domain.liquid_centre[c]); });
+      throw_first(mesh.communicator(), error);
+      result = largest(mesh.communicator(), result);
+      if (result < 0)
+        keep_error(ignored, [&] { include(mesh.middle()); });
+      return std::max(result, 0.);
+    }
+  } // namespace
+
   template <int dim>
   double
   TimeStep<dim>::next(const State<dim>        &state,
@@ -38,7 +65,7 @@ namespace treacle
   {
     // the speed at the end of the step counts: v dt + g dt^2 = CFL h
     const double     v        = maximum_speed(state, domain);
-    const double     g        = domain.scene.gravity(domain.mesh.middle(), state.time).norm();
+    const double     g        = maximum_gravity(domain, state.time);
     const double     distance = prm.cfl * domain.mesh.finest_size();
     double           dt       = prm.maximum;
     if (v + std::sqrt(v * v + 4 * g * distance) > 0)

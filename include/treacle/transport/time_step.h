@@ -32,7 +32,8 @@ namespace treacle
       : prm(parameters)
     {}
 
-    /// Size of the step from state.time (s); steps end exactly on frames.
+    /// Size of the step from state.time (s); steps end exactly on frames. Throws a UserError
+    /// on all ranks where velocity or gravity is not finite. Collective.
     double
     next(const State<dim> &state, const LiquidDomain<dim> &domain, const unsigned int frame) const;
 
