@@ -396,6 +396,7 @@ namespace treacle
       domain = dynamics.liquid_domain(*state, scene);
     }
     info.dynamics  = dynamics.advance(*state, *domain, difference.step, reach, timing);
+    maximum_speed(*state, *domain); // must be finite
     info.wall_time = wall.wall_time();
     report();
   }

@@ -136,6 +136,14 @@ namespace treacle
             };
             viscosity[c] = mean(state.material->viscosity);
             density[c]   = mean(state.material->density);
+            if (!(density[c] > 0))
+              keep_error(error, [&] {
+                value_error("The density that the liquid carries",
+                            density[c],
+                            "positive",
+                            liquid_centre[c],
+                            state.time);
+              });
           }
         else
           keep_error(error, [&] {

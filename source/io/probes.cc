@@ -119,6 +119,7 @@ namespace treacle
         if (owners[k].rank != rank)
           continue;
         const Location<dim>     location = locator.locate_here(owners[k].point);
+        AssertThrow(location.cell != invalid, ExcMessage("No cell contains " + name(k) + "."));
         const auto             &nodes    = mesh.cell_nodes[location.cell];
         const VertexValues<dim> phi      = mesh.values(location.cell, state.phi);
         if (std::inner_product(phi.begin(), phi.end(), location.lambda.begin(), 0.) > 0)

@@ -41,6 +41,8 @@ namespace treacle
   Location<dim>
   Locator<dim>::in_lattice(const Point<dim> &x_in) const
   {
+    if (!std::isfinite(x_in.norm_square()))
+      return {};
     const Point<dim>   x      = moved_to_box(x_in);
     const Octree<dim> &octree = mesh.octree();
     const LocalIndex   l      = octree.leaf_containing(x);

@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/exceptions.h>
+#include <treacle/base/maximum.h>
 #include <treacle/fields/connected_liquid.h>
 #include <treacle/pressure/projection.h>
 
@@ -342,12 +343,12 @@ namespace treacle
   double
   Projection<dim>::maximum_divergence(const State<dim> &state, const LiquidDomain<dim> &domain)
   {
-    double largest = 0;
+    double divergence = 0;
     for (LocalIndex c = 0; c < domain.mesh.n_owned_cells(); ++c)
       if (domain.is_pressure_cell[c])
-        largest =
-          std::max(largest, std::abs(outflow(domain, c, state.u)) / domain.mesh.cell_volume[c]);
-    return Utilities::MPI::max(largest, domain.mesh.communicator());
+        divergence =
+          larger(divergence, std::abs(outflow(domain, c, state.u)) / domain.mesh.cell_volume[c]);
+    return largest(domain.mesh.communicator(), divergence);
   }
 
   template class Projection<2>;

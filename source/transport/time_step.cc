@@ -89,11 +89,16 @@ namespace treacle
   double
   maximum_speed(const State<dim> &state, const LiquidDomain<dim> &domain)
   {
-    double largest = 0;
+    double speed = 0;
     for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
       if (domain.is_active_node[node])
-        largest = std::max(largest, state.v.value(node).norm());
-    return Utilities::MPI::max(largest, domain.mesh.communicator());
+        speed = larger(speed, state.v.value(node).norm());
+    speed = largest(domain.mesh.communicator(), speed);
+    require(std::isfinite(speed),
+            "The velocity is not finite at t = " + digits(state.time) +
+              " s. Lower Maximum time step or Maximum CFL number; look for a force that grows "
+              "without bound.");
+    return speed;
   }
 
   template class TimeStep<2>;

@@ -65,7 +65,8 @@ namespace treacle
     const Parameters prm;
   };
 
-  /// Largest speed of an active node over all ranks (m/s).
+  /// Largest speed of an active node over all ranks (m/s). Throws a UserError on all of them
+  /// if it is not finite. Collective.
   template <int dim>
   double
   maximum_speed(const State<dim> &state, const LiquidDomain<dim> &domain);
