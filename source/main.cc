@@ -9,7 +9,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <chrono>
+#include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <regex>
 #include <sstream>
@@ -146,30 +149,83 @@ namespace
     return "internal error" + place + ": " +
            std::regex_replace(Utilities::trim(info.str()), std::regex("\\s+"), " ");
   }
+
+  /// Do all ranks call this within seconds? What waits for this one elsewhere never does.
+  bool
+  all_arrive(const MPI_Comm &meeting)
+  {
+    using Clock = std::chrono::steady_clock;
+    // of ranks that fail each by itself the lowest speaks first, and ends the others
+    const auto patience = std::chrono::milliseconds(
+      5000 + 200 * std::min(Utilities::MPI::this_mpi_process(meeting), 25u));
+    MPI_Request request;
+    MPI_Ibarrier(meeting, &request);
+    for (const auto start = Clock::now(); Clock::now() - start < patience;)
+      {
+        int is_done = 0;
+        MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
+        if (is_done)
+          return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+    return false;
+  }
+
+  /// The end of all ranks, whatever they wait for.
+  [[noreturn]] void
+  end_all(const std::string &message)
+  {
+    std::cerr << "treacle: error: on rank "
+              << Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) << ": " << message << std::endl;
+    MPI_Abort(MPI_COMM_WORLD, 1);
+    std::abort();
+  }
+
+  /// Called where an exception is thrown that nothing catches: before destructors, some of
+  /// which wait for other ranks.
+  [[noreturn]] void
+  terminate()
+  {
+    std::string message = "internal error";
+    try
+      {
+        if (std::current_exception())
+          std::rethrow_exception(std::current_exception());
+      }
+    catch (const std::exception &exception)
+      {
+        message = summary(exception);
+      }
+    catch (...)
+      {}
+    // one message if all ranks fail
+    const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+    std::this_thread::sleep_for(std::chrono::milliseconds(rank == 0 ? 0 : 2000 + 200 * std::min(rank, 25u)));
+    end_all(message);
+  }
 } // namespace
 
 int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  std::set_terminate(&terminate);
   deallog.depth_console(0);
+  MPI_Comm meeting; // of ranks that have failed
+  MPI_Comm_dup(MPI_COMM_WORLD, &meeting);
+  int code = 0;
   try
     {
       run(read_command_line(argc, argv));
-      return 0;
     }
-  catch (const UserError &error) // on all ranks alike
+  catch (const UserError &error) // on all ranks alike, or there is a mistake in the program
     {
+      code = 1;
+      if (!all_arrive(meeting))
+        end_all(error.what());
       if (is_first_rank())
         std::cerr << "treacle: error: " << error.what() << std::endl;
-      return 1;
     }
-  catch (const std::exception &exception) // on any ranks; the others may be waiting
-    {
-      if (!is_first_rank()) // one message if the first rank fails too
-        std::this_thread::sleep_for(std::chrono::seconds(2));
-      std::cerr << "treacle: error: " << summary(exception) << std::endl;
-      MPI_Abort(MPI_COMM_WORLD, 1);
-    }
-  return 1;
+  MPI_Comm_free(&meeting);
+  return code;
 }

@@ -78,7 +78,7 @@ namespace treacle
     , imported(imported_mesh<dim>(comm, parameters.imported))
     , prm(in_box_of_mesh(parameters, imported.get()))
     , parameters_as_used(parameters_as_used)
-    , scene(prm.scene)
+    , scene(prm.scene, comm)
     , movement(prm.transport, scene)
     , time_step(movement.time_step)
     , dynamics(prm.dynamics, prm.steps)
@@ -234,9 +234,11 @@ namespace treacle
     const BackwardDifference difference(dt, *liquid.state);
     info    = StepInfo<dim>();
     info.dt = dt;
+    scene.check_solids(liquid.state->time + dt);
     transport(difference);
     timing.measured("liquid domain", [&] { liquid.find(prm.liquid_domain); });
     info.dynamics  = dynamics.advance(liquid, difference, reach, timing);
+    maximum_speed(*liquid.state, *liquid.domain); // must be finite
     info.wall_time = wall.wall_time();
     report();
   }

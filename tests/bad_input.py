@@ -112,6 +112,61 @@ def write_meshes(path):
         (path / f"{name}.msh").write_text("\n".join(lines + ["$EndElements", ""]))
 
 
+def on_three_ranks(program, changes, of_last):
+    """The command line; where the last rank has settings of its own, it runs in the directory
+    "last"."""
+    if not of_last:
+        return command(program, 3, changes)
+    first, last = (command(program, 1, {**changes, **more}) for more in ({}, of_last))
+    return ["mpirun", "-np", "2", *first, ":", "-np", "1", "-wdir", "last", *last]
+
+
+# What goes wrong on one rank of three alone, or is only seen there, must end all:
+# name, changes, those of the last rank, files in its directory, what the message must hold
+DAMAGED_LIST = '<DataSet timestep="none" group="" part="0" file="mesh_00000.abc"/>\n'
+ON_ONE_RANK = [
+    ("gravity that is infinite for some", {"Gravity/Acceleration": "0; if(x > 0.6, 1/0, -9.81)"},
+     {}, r"error: Gravity/Acceleration is inf at x = .* t = 0 s"),
+    ("motion that ends where some have markers", {
+        "Liquid 1/Centre": "0.2, 0.2", "Liquid 1/Radius": "0.1", "Solid 1/Radius": "0.05",
+        "Solid 1/Centre": "0.8, 0.8", "Solid 1/Displacement": "sqrt(0.015 - t); 0",
+        "Surface tracking/Volume correction": "false"}, {},
+     r"error: Solid 1/Displacement is not finite at t = "),
+    ("an option of the last rank", {}, {"--no-such-option": ""},
+     r"error: on rank 2: .*--no-such-option"),
+    ("internal error on the first rank", {"Output/Mesh format": "vtu"}, {},
+     r"error: on rank 0: internal error"),
+    ("triangle mesh that the first rank cannot read", {
+        "Dimension": "3", "Liquid 1/Shape": "triangle mesh", "Liquid 1/File": "nowhere.off"},
+     {"Liquid 1/File": "tetrahedron.off"}, r"error: Liquid 1/File: .*nowhere\.off. does not exist"),
+]
+TIME_LIMIT = 60  # s, for them to end; they take a few
+
+
+def failures_of_one_rank(program):
+    for name, changes, of_last, message in ON_ONE_RANK:
+        with tempfile.TemporaryDirectory() as directory:
+            path = pathlib.Path(directory)
+            (path / "last").mkdir()
+            for place in (path, path / "last"):
+                (place / "empty.prm").write_text("")
+            (path / "last" / "tetrahedron.off").write_text(
+                "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
+            if "internal" in name:
+                (path / "run" / "frames").mkdir(parents=True)
+                (path / "run" / "frames" / "mesh.pvd").write_text(DAMAGED_LIST)
+            try:
+                run = subprocess.run(on_three_ranks(program, changes, of_last), cwd=path,
+                                     capture_output=True, text=True, timeout=TIME_LIMIT)
+            except subprocess.TimeoutExpired:
+                yield f"{name}: does not end"
+                continue
+            if run.returncode == 0 or not re.search(message, run.stderr, re.S):
+                yield f"{name}: exit code {run.returncode}\n{run.stderr}"
+            elif run.stderr.count("treacle: error: ") != 1:
+                yield f"{name}: not one message\n{run.stderr}"
+
+
 def command(program, ranks, changes):
     """The command line, with every parameter by --set on an empty file."""
     line = [] if ranks == 1 else ["mpirun", "-np", str(ranks)]
@@ -147,8 +202,10 @@ def failures(program):
 
 
 def main():
-    found = list(failures(str(pathlib.Path(sys.argv[1]).resolve())))
-    print("\n".join(found) or f"{2 * len(CASES)} cases: each one message, exit code 1")
+    program = str(pathlib.Path(sys.argv[1]).resolve())
+    found = [*failures_of_one_rank(program), *failures(program)]
+    print("\n".join(found) or f"{2 * len(CASES) + len(ON_ONE_RANK)} cases: each one message, "
+          "exit code 1")
     return 1 if found else 0
 
 

@@ -25,6 +25,21 @@ namespace treacle
           result[name] = std::max(result[name], value);
       return result;
     }
+    std::string
+    peak_memory(const MPI_Comm &comm)
+    {
+      Utilities::System::MemoryStats memory;
+      Utilities::System::get_memory_stats(memory);
+      const double peak = memory.VmHWM / 1024.; // MiB
+      char         text[128];
+      std::snprintf(text,
+                    sizeof text,
+                    "Peak memory: %.0f MiB in all, %.0f MiB on the largest of %u ranks",
+                    Utilities::MPI::sum(peak, comm),
+                    Utilities::MPI::max(peak, comm),
+                    Utilities::MPI::n_mpi_processes(comm));
+      return text;
+    }
   } // namespace
 
   // a TimerOutput that knows the communicator would wait for all ranks at the
@@ -74,17 +89,7 @@ namespace treacle
     for (const auto &[name, time] : sorted)
       add(name, calls.at(name), time);
     add("Total", 1, total);
-
-    Utilities::System::MemoryStats memory;
-    Utilities::System::get_memory_stats(memory);
-    const double peak = memory.VmHWM / 1024.; // MiB
-    std::snprintf(text,
-                  sizeof text,
-                  "Peak memory: %.0f MiB in all, %.0f MiB on the largest of %u ranks",
-                  Utilities::MPI::sum(peak, comm),
-                  Utilities::MPI::max(peak, comm),
-                  Utilities::MPI::n_mpi_processes(comm));
-    return table + text;
+    return table + peak_memory(comm);
   }
 
   void

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/exchange.h>
+#include <treacle/base/maximum.h>
 #include <treacle/dynamics/measures.h>
 #include <treacle/fields/gradients.h>
 
@@ -50,6 +52,7 @@ namespace treacle
       add_moment<dim>(sum.angular, arm, momentum);
     }
 
+    /// Throws a UserError on all ranks where gravity is not finite. Collective.
     template <int dim>
     void
     sum_cells(const State<dim>        &state,
@@ -58,17 +61,20 @@ namespace treacle
               Sums<dim>               &sums)
     {
       const Mesh<dim> &mesh = domain.mesh;
+      std::string      error;
       for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
         if (const double volume = domain.liquid_volume[c]; volume > 0)
           {
             const Point<dim>    &x    = domain.liquid_centre[c];
             const double         mass = domain.density[c] * volume;
-            const Tensor<1, dim> g    = domain.scene.gravity(x, state.time);
             sums.volume += volume;
             sums.mass += mass;
             for (unsigned int d = 0; d < dim; ++d)
               sums.first_moment[d] += mass * (x[d] - origin[d]);
-            sums.potential_energy -= mass * (g * (x - domain.scene.lower_corner()));
+            keep_error(error, [&] {
+              const Tensor<1, dim> g = domain.scene.gravity(x, state.time);
+              sums.potential_energy -= mass * (g * (x - domain.scene.lower_corner()));
+            });
 
             const auto add_dissipation = [&](const double part, const Tensor<2, dim> &gradient) {
               const SymmetricTensor<2, dim> strain_rate = symmetrize(gradient);
@@ -80,6 +86,7 @@ namespace treacle
             if (parts.size() == 0)
               add_dissipation(1, velocity_gradient(mesh, c, state.v));
           }
+      throw_first(mesh.communicator(), error);
     }
 
     template <int dim>
@@ -153,7 +160,7 @@ namespace treacle
               }
       for (LocalIndex n = 0; n < mesh.n_owned_nodes(); ++n)
         if (domain.is_active_node[n] && state.phi.local_element(n) < 0)
-          result.back() = std::max(result.back(), state.v.value(n).norm());
+          result.back() = larger(result.back(), state.v.value(n).norm());
       return result;
     }
 
@@ -183,14 +190,13 @@ namespace treacle
     sum_motion(state, domain, origin, sums);
     MPI_Allreduce(
       MPI_IN_PLACE, &sums, sizeof sums / sizeof(double), MPI_DOUBLE, MPI_SUM, comm);
-    Maxima<dim> most = maxima(state, domain);
-    MPI_Allreduce(MPI_IN_PLACE, most.data(), most.size(), MPI_DOUBLE, MPI_MAX, comm);
+    const Maxima<dim> most = largest(comm, maxima(state, domain));
 
     Measures<dim> result;
     result.volume           = sums.volume;
     result.potential_energy = sums.potential_energy;
     result.dissipation      = sums.dissipation;
-    result.maximum_speed    = std::max(0., most.back());
+    result.maximum_speed    = larger(0., most.back());
     const bool     is_empty = sums.mass == 0;
     const double   nothing  = std::numeric_limits<double>::quiet_NaN();
     Tensor<1, dim> arm;

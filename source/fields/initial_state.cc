@@ -33,14 +33,18 @@ namespace treacle
                const double         time)
     {
       check_finite(mesh, name, distance);
-      bool in_box = false, outside_solids = false;
+      const MPI_Comm &comm   = mesh.communicator();
+      bool            in_box = false, outside_solids = false;
+      std::string     error;
       for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
         if (const Point<dim> &x = mesh.node_position[node]; distance(x) < 0)
           {
-            in_box         = true;
-            outside_solids = outside_solids || scene.solid_distance(x, time) > 0;
+            in_box = true;
+            keep_error(error, [&] {
+              outside_solids = outside_solids || scene.solid_distance(x, time) > 0;
+            });
           }
-      const MPI_Comm &comm = mesh.communicator();
+      throw_first(comm, error);
       require(Utilities::MPI::max(in_box ? 1 : 0, comm) == 1,
               name + (mesh.is_lattice() ?
                         " lies outside the box, or is smaller than the cells: move it, "

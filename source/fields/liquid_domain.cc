@@ -138,6 +138,12 @@ namespace treacle
     };
     viscosity[c] = mean(state.material->viscosity);
     density[c]   = mean(state.material->density);
+    if (!(density[c] > 0))
+      value_error("The density that the liquid carries",
+                  density[c],
+                  "positive",
+                  liquid_centre[c],
+                  state.time);
   }
 
   template <int dim>

@@ -4,52 +4,13 @@
 #include <treacle/base/exceptions.h>
 #include <treacle/geometry/motion.h>
 
-#include <deal.II/physics/transformations.h>
-
+#include <algorithm>
 #include <limits>
 
 namespace treacle
 {
   namespace
   {
-    namespace Rotations = Physics::Transformations::Rotations;
-
-    Tensor<2, 2>
-    rotation_by(const Tensor<1, 1> &angle)
-    {
-      return Rotations::rotation_matrix_2d(angle[0]);
-    }
-
-    Tensor<2, 3>
-    rotation_by(const Tensor<1, 3> &turn)
-    {
-      const double angle = turn.norm();
-      return angle > 0 ? Rotations::rotation_matrix_3d(turn / angle, angle) :
-                         Tensor<2, 3>(unit_symmetric_tensor<3>());
-    }
-
-    Tensor<2, 2>
-    spin_of(const Tensor<1, 1> &w)
-    {
-      Tensor<2, 2> spin;
-      spin[1][0] = w[0];
-      spin[0][1] = -w[0];
-      return spin;
-    }
-
-    Tensor<2, 3>
-    spin_of(const Tensor<1, 3> &w)
-    {
-      Tensor<2, 3> spin;
-      for (unsigned int d = 0; d < 3; ++d)
-        {
-          const unsigned int i = (d + 1) % 3, j = (d + 2) % 3;
-          spin[j][i]           = w[d];
-          spin[i][j]           = -w[d];
-        }
-      return spin;
-    }
-
     bool
     is_zero(const std::string &formulas)
     {
@@ -141,20 +102,35 @@ namespace treacle
     return value;
   }
 
+  namespace
+  {
+    /// df/dt of second order and far from rounding: by central differences, but where they
+    /// would ask for a time before 0.
+    template <typename Function>
+    auto
+    derivative(const Function &f, const double t)
+    {
+      const double delta = 1e-5 * std::max(1., 1e-3 * t);
+      const double later = t + delta, earlier = t - delta;
+      if (earlier >= 0)
+        return (f(later) - f(earlier)) / (later - earlier);
+      return (4. * f(later) - 3. * f(t) - f(t + 2 * delta)) / (2 * delta);
+    }
+  } // namespace
+
   template <int dim>
   Pose<dim>
   RigidMotion<dim>::from_position(const double t) const
   {
-    // central differences: second order, and far from rounding
-    const double         delta = 1e-5 * std::max(1., std::abs(t));
-    const Tensor<2, dim> r     = rotation_by(turn(t));
-    const Tensor<2, dim> rate =
-      (rotation_by(turn(t + delta)) - rotation_by(turn(t - delta))) / (2 * delta);
-    const Tensor<2, dim> spin = rate * transpose(r);
+    const auto rotation_at    = [&](const double time) { return rotation_by(turn(time)); };
+    const auto translation_at = [&](const double time) { return translation(time); };
+
+    const Tensor<2, dim> r    = rotation_at(t);
+    const Tensor<2, dim> spin = derivative(rotation_at, t) * transpose(r);
     return {centre,
             translation(t),
             r,
-            (translation(t + delta) - translation(t - delta)) / (2 * delta),
+            derivative(translation_at, t),
             0.5 * (spin - transpose(spin))};
   }
 
@@ -162,23 +138,11 @@ namespace treacle
   Pose<dim>
   RigidMotion<dim>::from_velocity(const double t) const
   {
-    // Gauss's two points in each of n panels; the rotation by Magnus' series, whose
-    // second term vanishes for a fixed axis: both of fourth order
-    constexpr unsigned int n    = 1000;
-    const double           step = t / n, offset = 0.5 / std::sqrt(3.);
-    Pose<dim>              pose{centre, {}, {}, translation(t), spin_of(turn(t))};
-    for (unsigned int d = 0; d < dim; ++d)
-      pose.rotation[d][d] = 1;
-    for (unsigned int k = 0; k < n; ++k)
-      {
-        const double t1 = (k + 0.5 - offset) * step, t2 = (k + 0.5 + offset) * step;
-        pose.shift += 0.5 * step * (translation(t1) + translation(t2));
-        const Tensor<1, n_rotations> w1 = turn(t1), w2 = turn(t2);
-        Tensor<1, n_rotations>       angle = 0.5 * step * (w1 + w2);
-        if constexpr (dim == 3)
-          angle += std::sqrt(3.) / 12 * step * step * cross_product_3d(w2, w1);
-        pose.rotation = rotation_by(angle) * pose.rotation;
-      }
+    Pose<dim> pose{centre, {}, {}, translation(t), spin_of(turn(t))};
+    std::tie(pose.shift, pose.rotation) =
+      integral.at(t,
+                  [&](const double time) { return translation(time); },
+                  [&](const double time) { return turn(time); });
     return pose;
   }
 

@@ -10,8 +10,6 @@
 #include <limits>
 #include <memory>
 #include <sstream>
-#include <utility>
-#include <vector>
 
 namespace treacle
 {
@@ -67,7 +65,7 @@ namespace treacle
     }
 
     template <int dim>
-    using Parameters = typename Shape<dim>::Parameters;
+    using Parameters = ShapeParameters<dim>;
     template <int dim>
     using Distance = typename Shape<dim>::Distance;
 
@@ -153,7 +151,9 @@ namespace treacle
 
     template <int dim>
     Distance<dim>
-    triangle_mesh(const Parameters<dim> &p, const std::string &where)
+    triangle_mesh(const Parameters<dim>           &p,
+                  const std::string               &where,
+                  [[maybe_unused]] const MPI_Comm &comm)
     {
       require(dim == 3,
               where + ": the shape \"triangle mesh\" is for Dimension = 3; in 2D use "
@@ -172,7 +172,7 @@ namespace treacle
           placement.translation = p.translation;
 
           const auto surface =
-            std::make_shared<const TriangleSurface>(p.file, placement, where + "/File");
+            std::make_shared<const TriangleSurface>(p.file, placement, where + "/File", comm);
           return [surface](const Point<3> &x) { return surface->signed_distance(x); };
         }
       else
@@ -186,114 +186,39 @@ namespace treacle
       return Expression<dim>(p.expression, where + "/Expression", false);
     }
 
-
-
     template <int dim>
-    using Maker = Distance<dim> (*)(const Parameters<dim> &, const std::string &);
-
-    /// All shapes there are.
-    template <int dim>
-    const std::vector<std::pair<std::string, Maker<dim>>> &
-    shapes()
+    Distance<dim>
+    make(const Parameters<dim> &p, const std::string &where, const MPI_Comm &comm)
     {
-      static const std::vector<std::pair<std::string, Maker<dim>>> list = {
-        {"sphere", &sphere<dim>},
-        {"box", &box<dim>},
-        {"cylinder", &cylinder<dim>},
-        {"capsule", &capsule<dim>},
-        {"torus", &torus<dim>},
-        {"half space", &half_space<dim>},
-        {"triangle mesh", &triangle_mesh<dim>},
-        {"expression", &expression<dim>}};
-      return list;
-    }
-
-    template <int dim>
-    std::string
-    shape_names(const std::string &separator)
-    {
-      std::string names;
-      for (const auto &shape : shapes<dim>())
-        names += (names.empty() ? "" : separator) + shape.first;
-      return names;
+      switch (p.kind)
+        {
+          case ShapeKind::sphere:
+            return sphere<dim>(p, where);
+          case ShapeKind::box:
+            return box<dim>(p, where);
+          case ShapeKind::cylinder:
+            return cylinder<dim>(p, where);
+          case ShapeKind::capsule:
+            return capsule<dim>(p, where);
+          case ShapeKind::torus:
+            return torus<dim>(p, where);
+          case ShapeKind::half_space:
+            return half_space<dim>(p, where);
+          case ShapeKind::triangle_mesh:
+            return triangle_mesh<dim>(p, where, comm);
+          case ShapeKind::expression:
+            return expression<dim>(p, where);
+        }
+      Assert(false, ExcInternalError());
+      return {};
     }
   } // namespace
 
-
-
   template <int dim>
-  void
-  Shape<dim>::Parameters::add_parameters(ParameterHandler &prm)
-  {
-    prm.add_parameter("Shape",
-                      shape,
-                      "The body that the other parameters of this subsection describe.",
-                      Patterns::Selection(shape_names<dim>("|")));
-    prm.add_parameter("Invert", invert, "Take the outside of the body instead.");
-    prm.add_parameter("Centre",
-                      centre,
-                      "sphere, cylinder, torus: the centre (m); half space: a point of "
-                      "the plane (m).");
-    prm.add_parameter("Radius",
-                      radius,
-                      "sphere, cylinder (2D: half the width), capsule, torus (of the "
-                      "circle in its middle): the radius (m).");
-    prm.add_parameter("Minor radius",
-                      minor_radius,
-                      "torus: the radius (m) of its tube, smaller than Radius; in 2D "
-                      "half the width of the annulus.");
-    prm.add_parameter("Axis", axis, "cylinder, torus: the direction of the axis.");
-    prm.add_parameter("Length", length, "cylinder: the length (m) along the axis.");
-    prm.add_parameter("Normal",
-                      normal,
-                      "half space: the direction normal to the plane, out of the body.");
-    prm.add_parameter("Lower corner", lower_corner, "box: the smallest coordinates (m).");
-    prm.add_parameter("Upper corner", upper_corner, "box: the largest coordinates (m).");
-    prm.add_parameter("Start", start, "capsule: one end (m) of its middle line.");
-    prm.add_parameter("End", end, "capsule: the other end (m) of its middle line.");
-    prm.add_parameter("Expression",
-                      expression,
-                      "expression: a formula in x,y,z (2D: x,y) (m) that is near the "
-                      "surface like a distance (m), negative inside.");
-    prm.add_parameter("File",
-                      file,
-                      "triangle mesh: a closed surface, as OFF, OBJ, PLY or STL.",
-                      Patterns::FileName());
-    prm.add_parameter("Centre at origin",
-                      centre_at_origin,
-                      "triangle mesh: first move the centre of its bounding box to the "
-                      "origin.");
-    prm.add_parameter("Scale",
-                      scale,
-                      "triangle mesh: then multiply its coordinates by this (m per unit "
-                      "of the file).");
-    prm.add_parameter("Rotation axis",
-                      rotation_axis,
-                      "triangle mesh: then rotate it about this direction ...");
-    prm.add_parameter("Rotation angle",
-                      rotation_angle,
-                      "triangle mesh: ... through the origin, by this angle (degrees, "
-                      "right-handed).");
-    prm.add_parameter("Translation",
-                      translation,
-                      "triangle mesh: last move it by this (m).");
-  }
-
-
-
-  template <int dim>
-  Shape<dim>::Shape(const Parameters &parameters, const std::string &where)
+  Shape<dim>::Shape(const Parameters &parameters, const std::string &where, const MPI_Comm &comm)
     : sign(parameters.invert ? -1 : 1)
-  {
-    for (const auto &[name, make] : shapes<dim>())
-      if (name == parameters.shape)
-        distance = make(parameters, where);
-    require(static_cast<bool>(distance),
-            where + ": Shape is \"" + parameters.shape + "\", but must be one of " +
-              shape_names<dim>(", ") + ".");
-  }
-
-
+    , distance(make<dim>(parameters, where, comm))
+  {}
 
   template class Shape<2>;
   template class Shape<3>;

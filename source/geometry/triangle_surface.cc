@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/base/exceptions.h>
+#include <treacle/base/exchange.h>
 #include <treacle/geometry/triangle_surface.h>
 
 #include <deal.II/physics/transformations.h>
 
+// polygons are cut by minimal weight: without Delaunay triangulations, in half of the time
+// to compile
+#define CGAL_TRIANGULATE_FACES_DO_NOT_USE_CDT2
+#define CGAL_HOLE_FILLING_DO_NOT_USE_CDT2
+#define CGAL_HOLE_FILLING_DO_NOT_USE_DT3
+
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Side_of_triangle_mesh.h>
-#include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/helpers.h>
 
@@ -23,7 +29,8 @@ namespace treacle
 {
   namespace
   {
-    using Kernel  = CGAL::Simple_cartesian<double>;
+    // which side a point lies on must not depend on rounding
+    using Kernel  = CGAL::Exact_predicates_inexact_constructions_kernel;
     using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 
     // with the triangles copied into the tree: queries do not walk the mesh
@@ -100,6 +107,52 @@ namespace treacle
           Point<3>(rotation * (placement.scale * (to_point(mesh.point(v)) - centre)) +
                    placement.translation));
     }
+
+    /// What the first rank has, on all ranks. Collective.
+    template <typename T>
+    void
+    broadcast(const MPI_Comm &comm, std::vector<T> &list)
+    {
+      std::uint64_t size = list.size();
+      MPI_Bcast(&size, 1, MPI_UINT64_T, 0, comm);
+      list.resize(size);
+      MPI_Datatype type;
+      MPI_Type_contiguous(sizeof(T), MPI_BYTE, &type);
+      MPI_Type_commit(&type);
+      MPI_Bcast(list.data(), size, type, 0, comm);
+      MPI_Type_free(&type);
+    }
+
+    /// The same vertices and triangles in the same order on all ranks. Collective.
+    Surface
+    on_all_ranks(const MPI_Comm &comm, const Surface &mesh)
+    {
+      std::vector<std::array<double, 3>>        points;
+      std::vector<std::array<std::uint32_t, 3>> triangles;
+      std::vector<std::uint32_t>                index(mesh.num_vertices());
+      for (const auto v : mesh.vertices())
+        {
+          const Kernel::Point_3 &p = mesh.point(v);
+          index[v]                 = points.size();
+          points.push_back({{p.x(), p.y(), p.z()}});
+        }
+      for (const auto f : mesh.faces())
+        {
+          triangles.emplace_back();
+          auto next = triangles.back().begin();
+          for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
+            *next++ = index[v];
+        }
+      broadcast(comm, points);
+      broadcast(comm, triangles);
+
+      Surface result;
+      for (const auto &[x, y, z] : points)
+        result.add_vertex(Kernel::Point_3(x, y, z));
+      for (const auto &[a, b, c] : triangles)
+        result.add_face(Surface::Vertex_index(a), Surface::Vertex_index(b), Surface::Vertex_index(c));
+      return result;
+    }
   } // namespace
 
 
@@ -126,11 +179,18 @@ namespace treacle
 
   TriangleSurface::TriangleSurface(const std::string &file,
                                    const Placement   &placement,
-                                   const std::string &where)
+                                   const std::string &where,
+                                   const MPI_Comm    &comm)
   {
-    Surface mesh = read(file, where);
-    place(placement, mesh);
-    implementation = std::make_unique<const Implementation>(std::move(mesh));
+    Surface     mesh;
+    std::string error;
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      keep_error(error, [&] {
+        mesh = read(file, where);
+        place(placement, mesh);
+      });
+    throw_first(comm, error);
+    implementation = std::make_unique<const Implementation>(on_all_ranks(comm, mesh));
   }
 
   TriangleSurface::~TriangleSurface() = default;

@@ -4,6 +4,7 @@
 #include <treacle/base/exceptions.h>
 #include <treacle/io/checkpoint_info.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 
@@ -25,6 +26,26 @@ namespace treacle
     require(it != values.end(),
             "The file \"" + path + "\" does not say \"" + name + "\".");
     return it->second;
+  }
+
+  double
+  CheckpointInfo::number(const std::string &name) const
+  {
+    const std::string text = get(name);
+    char             *end  = nullptr;
+    const double      x    = std::strtod(text.c_str(), &end);
+    require(!text.empty() && *end == '\0',
+            "The file \"" + path + "\" is damaged: \"" + name + "\" is \"" + text + "\".");
+    return x;
+  }
+
+  std::uint64_t
+  CheckpointInfo::count(const std::string &name) const
+  {
+    const double x = number(name); // exact below 2^53
+    require(x >= 0 && x == std::floor(x),
+            "The file \"" + path + "\" is damaged: \"" + name + "\" is " + get(name) + ".");
+    return static_cast<std::uint64_t>(x);
   }
 
   std::map<std::string, double>

@@ -113,16 +113,15 @@ namespace treacle
               const std::string &pvtu,
               const double       time)
     {
-      std::vector<std::pair<double, std::string>> records;
-      const std::regex entry("timestep=\"([^\"]*)\".*file=\"([^\"]*)\"");
-      std::ifstream    old(path);
-      std::smatch      match;
-      for (std::string line; std::getline(old, line);)
-        if (std::regex_search(line, match, entry) && match[2].str() < pvtu)
-          records.emplace_back(std::stod(match[1]), match[2]);
-      old.close();
-      records.emplace_back(time, pvtu);
       replace_file(comm, path, [&](std::ostream &out) {
+        std::vector<std::pair<double, std::string>> records;
+        const std::regex entry("timestep=\"([^\"]*)\".*file=\"([^\"]*)\"");
+        std::ifstream    old(path);
+        std::smatch      match;
+        for (std::string line; std::getline(old, line);)
+          if (std::regex_search(line, match, entry) && match[2].str() < pvtu)
+            records.emplace_back(std::stod(match[1]), match[2]);
+        records.emplace_back(time, pvtu);
         out << std::setprecision(15);
         DataOutBase::write_pvd_record(out, records);
       });

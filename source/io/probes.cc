@@ -175,8 +175,9 @@ namespace treacle
         const Vector pressure = pressure_around(state, domain, positions[k], reach);
         if (owners[k].rank != rank)
           continue;
-        const auto values =
-          interpolate(state, locator.locate_here(owners[k].point), pressure);
+        const Location<dim> location = locator.locate_here(owners[k].point);
+        AssertThrow(location.cell != invalid, ExcMessage("No cell contains " + name(k) + "."));
+        const auto values = interpolate(state, location, pressure);
         std::copy(values.begin(), values.end(), numbers.begin() + k * (dim + 1));
       }
     Utilities::MPI::sum(numbers, mesh.communicator(), numbers);

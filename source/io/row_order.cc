@@ -6,26 +6,60 @@
 
 namespace treacle
 {
-  template <int dim>
-  RowOrder<dim>::RowOrder(const Mesh<dim> &mesh, const unsigned int size)
-    : mesh(mesh)
-    , size(size)
+  namespace
   {
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(mesh.communicator());
-    const unsigned int rank    = Utilities::MPI::this_mpi_process(mesh.communicator());
-    const GlobalIndex  share   = (mesh.cells->size() + n_ranks - 1) / n_ranks;
-    first                      = std::min(rank * share, mesh.cells->size());
-    n_rows                     = std::min(share, mesh.cells->size() - first);
+    /// Where rows of these sizes begin, and the end of the last.
+    template <typename Sizes>
+    std::vector<std::uint64_t>
+    starts(const Sizes &sizes)
+    {
+      std::vector<std::uint64_t> result(1, 0);
+      for (const auto size : sizes)
+        result.push_back(result.back() + size);
+      return result;
+    }
 
+    void
+    append_row(std::vector<double>              &to,
+               const std::vector<double>        &from,
+               const std::vector<std::uint64_t> &start,
+               const std::uint64_t               row)
+    {
+      to.insert(to.end(), from.begin() + start[row], from.begin() + start[row + 1]);
+    }
+  } // namespace
+
+  template <int dim>
+  RowOrder<dim>::RowOrder(const Mesh<dim> &mesh, const std::vector<unsigned int> &sizes)
+    : comm(mesh.communicator())
+    , own_start(starts(sizes))
+  {
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+    const Share        share =
+      share_of(Utilities::MPI::this_mpi_process(comm), n_ranks, mesh.cells->size());
+    const std::uint64_t most = share_of(0, n_ranks, mesh.cells->size()).n;
+
+    using NumberAndSize = std::array<std::uint64_t, 2>;
+    PerRank<NumberAndSize> rows(n_ranks);
     sent_to.resize(n_ranks);
-    PerRank<GlobalIndex> numbers(n_ranks);
     for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
       {
-        const unsigned int r = mesh.cell_number[c] / share;
+        const unsigned int r = mesh.cell_number[c] / most;
         sent_to[r].push_back(c);
-        numbers[r].push_back(mesh.cell_number[c]);
+        rows[r].push_back({{mesh.cell_number[c], sizes[c]}});
       }
-    received_from = send_and_receive(mesh.communicator(), numbers);
+    rows = send_and_receive(comm, rows);
+
+    std::vector<std::uint64_t> share_sizes(share.n);
+    received_from.resize(n_ranks);
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      for (const auto &[number, size] : rows[r])
+        {
+          received_from[r].push_back(number - share.first);
+          share_sizes[number - share.first] = size;
+        }
+    start = starts(share_sizes);
+    MPI_Exscan(&start.back(), &n_before, 1, MPI_UINT64_T, MPI_SUM, comm);
   }
 
   template <int dim>
@@ -35,12 +69,16 @@ namespace treacle
     PerRank<double> sent(sent_to.size());
     for (unsigned int r = 0; r < sent.size(); ++r)
       for (const LocalIndex c : sent_to[r])
-        sent[r].insert(sent[r].end(), rows.begin() + c * size, rows.begin() + (c + 1) * size);
-    const auto          received = send_and_receive(mesh.communicator(), sent);
+        append_row(sent[r], rows, own_start, c);
+    const auto          received = send_and_receive(comm, sent);
     std::vector<double> result(n_numbers());
     for (unsigned int r = 0; r < received.size(); ++r)
-      for (unsigned int k = 0; k < received_from[r].size(); ++k)
-        std::copy_n(&received[r][k * size], size, &result[(received_from[r][k] - first) * size]);
+      {
+        auto next = received[r].begin();
+        for (const std::uint64_t row : received_from[r])
+          for (std::uint64_t k = start[row]; k < start[row + 1]; ++k)
+            result[k] = *next++;
+      }
     return result;
   }
 
@@ -50,16 +88,17 @@ namespace treacle
   {
     PerRank<double> sent(received_from.size());
     for (unsigned int r = 0; r < sent.size(); ++r)
-      for (const GlobalIndex number : received_from[r])
-        {
-          const auto begin = share.begin() + (number - first) * size;
-          sent[r].insert(sent[r].end(), begin, begin + size);
-        }
-    const auto          received = send_and_receive(mesh.communicator(), sent);
-    std::vector<double> result(mesh.n_owned_cells() * size);
+      for (const std::uint64_t row : received_from[r])
+        append_row(sent[r], share, start, row);
+    const auto          received = send_and_receive(comm, sent);
+    std::vector<double> result(own_start.back());
     for (unsigned int r = 0; r < received.size(); ++r)
-      for (unsigned int k = 0; k < sent_to[r].size(); ++k)
-        std::copy_n(&received[r][k * size], size, &result[sent_to[r][k] * size]);
+      {
+        auto next = received[r].begin();
+        for (const LocalIndex c : sent_to[r])
+          for (std::uint64_t k = own_start[c]; k < own_start[c + 1]; ++k)
+            result[k] = *next++;
+      }
     return result;
   }
 

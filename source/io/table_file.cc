@@ -4,6 +4,8 @@
 #include <treacle/base/exchange.h>
 #include <treacle/io/table_file.h>
 
+#include <deal.II/base/mpi_large_count.h>
+
 namespace treacle
 {
   namespace
@@ -56,7 +58,7 @@ namespace treacle
     const std::uint64_t n      = part.size();
     MPI_Exscan(&n, &offset, 1, MPI_UINT64_T, MPI_SUM, comm);
     with_file(comm, path, MPI_MODE_CREATE | MPI_MODE_WRONLY, [&](MPI_File &file) {
-      return MPI_File_write_at_all(
+      return Utilities::MPI::LargeCount::File_write_at_all_c(
         file, offset * sizeof(T), part.data(), n, mpi_type<T>(), MPI_STATUS_IGNORE);
     });
   }
@@ -65,20 +67,20 @@ namespace treacle
   std::vector<T>
   TableFile<T>::read(const MPI_Comm    &comm,
                      const std::string &path,
-                     const std::size_t  offset,
-                     const std::size_t  n)
+                     const std::uint64_t offset,
+                     const std::uint64_t n)
   {
     std::vector<T> part(n);
-    int            n_read = 0;
+    MPI_Count      n_read = 0;
     with_file(comm, path, MPI_MODE_RDONLY, [&](MPI_File &file) {
       MPI_Status status;
-      const int  code = MPI_File_read_at_all(
+      const int  code = Utilities::MPI::LargeCount::File_read_at_all_c(
         file, offset * sizeof(T), part.data(), n, mpi_type<T>(), &status);
-      MPI_Get_count(&status, mpi_type<T>(), &n_read);
+      MPI_Get_elements_x(&status, mpi_type<T>(), &n_read);
       return code;
     });
     throw_first(comm,
-                static_cast<std::size_t>(n_read) == n ?
+                static_cast<std::uint64_t>(n_read) == n ?
                   "" :
                   "The file \"" + path + "\" is too short.");
     return part;

@@ -140,12 +140,12 @@ namespace treacle
                   std::string());
 
     const std::string path  = directory + "/mesh.xdmf";
-    const std::string grids = earlier_grids(path, name) + xdmf_grid(state, domain, name);
+    const std::string grid = xdmf_grid(state, domain, name);
     replace_file(comm, path, [&](std::ostream &out) {
       out
         << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
            "<Grid Name=\"frames\" GridType=\"Collection\" CollectionType=\"Temporal\">\n"
-        << grids << "</Grid>\n</Domain>\n</Xdmf>\n";
+        << earlier_grids(path, name) << grid << "</Grid>\n</Domain>\n</Xdmf>\n";
     });
   }
 

@@ -29,6 +29,8 @@ namespace treacle
   Location<dim>
   LatticeLocator<dim>::locate(const Point<dim> &x_in) const
   {
+    if (!std::isfinite(x_in.norm_square()))
+      return {};
     const Point<dim>   x      = this->moved_to_box(x_in);
     const Octree<dim> &octree = lattice->octree();
     const LocalIndex   leaf   = octree.leaf_containing(x);

@@ -6,6 +6,18 @@
 
 namespace treacle
 {
+  namespace
+  {
+    /// No cell contains it: what moved it there has gone wrong.
+    template <int dim>
+    void
+    check_finite(const Point<dim> &x)
+    {
+      AssertThrow(std::isfinite(x.norm_square()),
+                  ExcMessage("A point to be traced is not finite: " + to_text(x, 6) + "."));
+    }
+  } // namespace
+
   template <int dim>
   void
   Tracer<dim>::evaluate_here(const Location<dim>               &location,
@@ -58,6 +70,8 @@ namespace treacle
           evaluate_here(location, fields, &values[i * n]);
       }
     const MPI_Comm &comm = mesh.communicator();
+    for (const unsigned int i : elsewhere)
+      check_finite(x[i]);
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
       return values;
 
@@ -74,7 +88,8 @@ namespace treacle
     const std::vector<double> heard =
       ask(comm, ranks, asked, n, [&](const Point<dim> &p, double *result) {
         const Location<dim> location = locator.locate_here(p);
-        AssertThrow(location.cell != invalid, ExcInternalError());
+        AssertThrow(location.cell != invalid,
+                    ExcMessage("There is no cell around the point " + to_text(p, 6) + "."));
         evaluate_here(location, fields, result);
       });
     for (unsigned int i = 0; i < elsewhere.size(); ++i)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/maximum.h>
 #include <treacle/pressure/pressure_system.h>
 
 namespace treacle
@@ -245,12 +246,12 @@ namespace treacle
   double
   PressureSystem<dim>::maximum_divergence(const State<dim> &state, const LiquidDomain<dim> &domain)
   {
-    double largest = 0;
+    double divergence = 0;
     for (LocalIndex c = 0; c < domain.mesh.n_owned_cells(); ++c)
       if (domain.is_pressure_cell[c])
-        largest =
-          std::max(largest, std::abs(outflow(domain, c, state.u)) / domain.mesh.cell_volume[c]);
-    return Utilities::MPI::max(largest, domain.mesh.communicator());
+        divergence =
+          larger(divergence, std::abs(outflow(domain, c, state.u)) / domain.mesh.cell_volume[c]);
+    return largest(domain.mesh.communicator(), divergence);
   }
 
   template class PressureSystem<2>;

@@ -24,12 +24,13 @@ namespace treacle
   template <int dim>
   Emitter<dim>::Emitter(const Parameters    &prm,
                         const std::string   &where,
-                        const Material<dim> &otherwise)
+                        const Material<dim> &otherwise,
+                        const MPI_Comm      &comm)
     : where(where)
     , material(prm.material, where, &otherwise)
     , start_time(prm.start_time)
     , stop_time(prm.stop_time)
-    , shape(prm.shape, where)
+    , shape(prm.shape, where, comm)
     , velocity_at(prm.velocity, where + "/Velocity")
   {
     require(start_time < stop_time, where + "/Stop time must be later than its Start time.");

@@ -9,10 +9,12 @@
 namespace treacle
 {
   template <int dim>
-  Emitters<dim>::Emitters(const Parameters &parameters, const Material<dim> &otherwise)
+  Emitters<dim>::Emitters(const Parameters    &parameters,
+                          const Material<dim> &otherwise,
+                          const MPI_Comm      &comm)
   {
     for (unsigned int k = 0; k < parameters.size(); ++k)
-      list.emplace_back(parameters[k], numbered("Emitter", k), otherwise);
+      list.emplace_back(parameters[k], numbered("Emitter", k), otherwise, comm);
   }
 
   template <int dim>

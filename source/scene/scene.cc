@@ -110,10 +110,11 @@ namespace treacle
 
 
   template <int dim>
-  Scene<dim>::Scene(const Parameters &parameters)
+  Scene<dim>::Scene(const Parameters &parameters, const MPI_Comm &comm)
     : Solids<dim>(parameters.solids,
-                  checked_box(parameters.lower_corner, parameters.upper_corner))
-    , Emitters<dim>(parameters.emitters, Material<dim>(parameters.material, "Material"))
+                  checked_box(parameters.lower_corner, parameters.upper_corner),
+                  comm)
+    , Emitters<dim>(parameters.emitters, Material<dim>(parameters.material, "Material"), comm)
     , lower(parameters.lower_corner)
     , upper(parameters.upper_corner)
     , walls(parse_wall_condition<dim>(parameters.wall_condition))
@@ -128,7 +129,7 @@ namespace treacle
       {
         const auto       &liquid = parameters.liquids[k];
         const std::string where  = numbered("Liquid", k);
-        liquids.push_back({Shape<dim>(liquid.shape, where),
+        liquids.push_back({Shape<dim>(liquid.shape, where, comm),
                            VectorExpression<dim>(liquid.velocity, where + "/Velocity"),
                            Material<dim>(liquid.material, where, &material)});
       }

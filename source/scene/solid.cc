@@ -38,10 +38,11 @@ namespace treacle
   template <int dim>
   Solid<dim>::Solid(const Parameters       &prm,
                     const std::string      &where,
-                    const BoundingBox<dim> &box)
+                    const BoundingBox<dim> &box,
+                    const MPI_Comm         &comm)
     : where(where)
     , box(box)
-    , shape(prm.shape, where)
+    , shape(prm.shape, where, comm)
     , motion(prm.motion, where)
   {
     if (!motion.is_moving())
@@ -82,12 +83,14 @@ namespace treacle
   void
   Solid<dim>::check(const double t) const
   {
-    if (sample.empty())
+    if (!motion.is_moving())
       return;
+    // on all ranks, whether or not they have cells: the motion may not be finite
     const Pose<dim> &pose = motion.at(t);
-    require(std::any_of(sample.begin(),
-                        sample.end(),
-                        [&](const Point<dim> &x) { return box.point_inside(pose.now(x)); }),
+    require(sample.empty() ||
+              std::any_of(sample.begin(),
+                          sample.end(),
+                          [&](const Point<dim> &x) { return box.point_inside(pose.now(x)); }),
             where + " has left the box at t = " + digits(t) +
               " s: change its motion, stop the run earlier (End time), or enlarge the box "
               "(Domain/Lower corner and Upper corner).");

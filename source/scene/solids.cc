@@ -7,10 +7,12 @@
 namespace treacle
 {
   template <int dim>
-  Solids<dim>::Solids(const Parameters &parameters, const BoundingBox<dim> &box)
+  Solids<dim>::Solids(const Parameters       &parameters,
+                      const BoundingBox<dim> &box,
+                      const MPI_Comm         &comm)
   {
     for (unsigned int k = 0; k < parameters.size(); ++k)
-      solids.emplace_back(parameters[k], numbered("Solid", k), box);
+      solids.emplace_back(parameters[k], numbered("Solid", k), box, comm);
   }
 
   template <int dim>

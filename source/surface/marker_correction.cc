@@ -43,6 +43,8 @@ namespace treacle
       Tensor<1, dim> mean;
       for (const NearMarker<dim> *m : markers)
         mean += weight((x - m->marker.position).norm_square(), h) * m->marker.normal;
+      if (mean.norm() == 0) // all at the very end of the reach
+        return {0, true};
       mean /= mean.norm();
       for (const NearMarker<dim> *m : markers)
         {
@@ -108,6 +110,8 @@ namespace treacle
           sum += w;
           residual += w * m->value;
         }
+      if (sum == 0)
+        return old;
       const double wanted = opposed.empty() && is_smooth ?
                               old - residual / sum :
                               distance_from_sheets(x, old, same, opposed, h);

@@ -93,11 +93,15 @@ namespace treacle
       count_markers()
       {
         const Locator<dim> &locator = mesh.locator();
+        std::vector<Marker<dim>> located;
         for (const Marker<dim> &marker : state.markers)
-          {
-            cells.push_back(locator.locate_here(marker.position).cell);
-            count.local_element(cells.back()) += 1;
-          }
+          if (const LocalIndex cell = locator.locate_here(marker.position).cell; cell != invalid)
+            {
+              located.push_back(marker);
+              cells.push_back(cell);
+              count.local_element(cell) += 1;
+            }
+        state.markers = std::move(located);
         count.compress(VectorOperation::add);
         count.update_ghost_values();
       }
@@ -179,7 +183,7 @@ namespace treacle
           {
             const auto samples = surface.level_set.samples(positions(seeds));
             for (unsigned int k = 0; k < seeds.size(); ++k)
-              if (samples[k].smoothness > 0.9)
+              if (samples[k].smoothness > 0.9 && samples[k].gradient.norm() > 0)
                 {
                   const Tensor<1, dim> &g = samples[k].gradient;
                   seeds[k].position -= samples[k].value * g / g.norm_square();

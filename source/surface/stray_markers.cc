@@ -60,7 +60,7 @@ namespace treacle
             (scene.has_solids() && scene.solid_distance(marker.position, state.time) < 0))
           continue;
         kept.push_back(marker);
-        if (is_smooth)
+        if (is_smooth && gradient.norm() > 0)
           kept.back().normal = gradient / gradient.norm();
       }
     // where nothing is left, as of a film that withered, there is nothing to follow

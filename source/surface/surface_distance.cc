@@ -18,6 +18,7 @@ namespace treacle
                                         const double        reach)
     : reach(reach)
     , box(mesh.box())
+    , tolerance(1e-12 * box.side_length(0))
   {
     gather_facets(mesh, surface);
     std::vector<std::pair<BoundingBox<dim>, unsigned int>> entries;
@@ -57,6 +58,53 @@ namespace treacle
         }
   }
 
+  namespace
+  {
+    /// An order of points that rounding does not change: by coordinates that differ by more
+    /// than @p tolerance first.
+    template <int dim>
+    bool
+    comes_first(const Point<dim> &p, const Point<dim> &q, const double tolerance)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (std::abs(p[d] - q[d]) > tolerance)
+          return p[d] < q[d];
+      return std::lexicographical_compare(p.begin_raw(), p.end_raw(), q.begin_raw(), q.end_raw());
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  SurfaceDistance<dim>::find_near(const Point<dim> &x, std::vector<Candidate> &candidates) const
+  {
+    // boxes in the order of their distance, more of them until no other can hold a facet as
+    // near (an incremental query costs far more)
+    double least = reach;
+    std::vector<std::pair<BoundingBox<dim>, unsigned int>> boxes;
+    for (unsigned int k = 8;; k *= 8)
+      {
+        boxes.clear();
+        candidates.clear();
+        tree.query(bgi::nearest(x, k), std::back_inserter(boxes));
+        double farthest_box = 0;
+        for (const auto &[around, facet] : boxes)
+          {
+            farthest_box       = std::max(farthest_box, boost::geometry::distance(x, around));
+            const Point<dim> p = nearest_point(facets[facet], x);
+            candidates.push_back({p, p.distance(x), facet});
+            least = std::min(least, candidates.back().distance);
+          }
+        if (boxes.size() < k || farthest_box > least + tolerance)
+          break;
+      }
+    candidates.erase(std::remove_if(candidates.begin(),
+                                    candidates.end(),
+                                    [&](const Candidate &c) {
+                                      return c.distance >= reach || c.distance > least + tolerance;
+                                    }),
+                     candidates.end());
+  }
+
   template <int dim>
   typename SurfaceDistance<dim>::Nearest
   SurfaceDistance<dim>::nearest(const Point<dim> &x) const
@@ -64,37 +112,18 @@ namespace treacle
     Nearest best{x, std::numeric_limits<double>::infinity()};
     if (tree.empty() || boost::geometry::distance(x, bounds) > reach)
       return best;
-    // boxes in the order of their distance, more of them until no other can hold
-    // a nearer facet (an incremental query costs far more)
-    std::vector<std::pair<BoundingBox<dim>, unsigned int>> boxes;
-    // on the box a nearest point is often the corner of several facets: all of them
-    // count, for their order depends on the partition
-    const double tolerance   = 1e-12 * box.side_length(0);
-    double       beyond      = best.distance;
-    for (unsigned int k = 8;; k *= 8)
+    // on the box a nearest point is often the corner of several facets, and in a plane of
+    // symmetry two points are as near: all of them count, for their order depends on the
+    // partition
+    std::vector<Candidate> candidates;
+    find_near(x, candidates);
+    for (const Candidate &c : candidates)
       {
-        boxes.clear();
-        tree.query(bgi::nearest(x, k), std::back_inserter(boxes));
-        double farthest_box = 0;
-        for (const auto &[around, facet] : boxes)
-          {
-            farthest_box     = std::max(farthest_box, boost::geometry::distance(x, around));
-            const Point<dim> p = nearest_point(facets[facet], x);
-            const double     d = p.distance(x);
-            if (d >= reach || d > best.distance + tolerance)
-              continue;
-            if (d < best.distance - tolerance)
-              {
-                best   = {p, d};
-                beyond = distance_beyond_box(x, p, facets[facet]);
-              }
-            else
-              beyond = std::min(beyond, distance_beyond_box(x, p, facets[facet]));
-          }
-        if (boxes.size() < k || farthest_box >= std::min(best.distance, reach))
-          break;
+        if (&c == &candidates.front() || comes_first(c.point, best.point, tolerance))
+          best.point = c.point;
+        best.distance =
+          std::min(best.distance, distance_beyond_box(x, c.point, facets[c.facet]));
       }
-    best.distance = beyond;
     return best;
   }
 
@@ -104,9 +133,8 @@ namespace treacle
                                             const Point<dim> &nearest,
                                             const Facet      &facet) const
   {
-    const double actual    = x.distance(nearest);
-    const double tolerance = 1e-12 * box.side_length(0);
-    bool         on_box    = false;
+    const double actual = x.distance(nearest);
+    bool         on_box = false;
     for (unsigned int d = 0; d < dim; ++d)
       on_box = on_box || std::abs(nearest[d] - box.lower_bound(d)) < tolerance ||
                std::abs(nearest[d] - box.upper_bound(d)) < tolerance;

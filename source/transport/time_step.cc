@@ -2,6 +2,8 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/choice.h>
+#include <treacle/base/exchange.h>
+#include <treacle/base/maximum.h>
 #include <treacle/transport/time_step.h>
 
 namespace treacle
@@ -33,6 +35,31 @@ namespace treacle
       {{"BDF2", Scheme::bdf2}, {"backward Euler", Scheme::backward_euler}});
   }
 
+  namespace
+  {
+    /// The largest gravity in the liquid, or in the box's middle as long as there is none
+    /// (m/s^2). Throws a UserError on all ranks if it is not finite in the liquid. Collective.
+    template <int dim>
+    double
+    maximum_gravity(const LiquidDomain<dim> &domain, const double time)
+    {
+      const Mesh<dim> &mesh   = domain.mesh;
+      double           result = -1; // none
+      std::string      error, ignored;
+      const auto       include = [&](const Point<dim> &x) {
+        result = std::max(result, domain.scene.gravity(x, time).norm());
+      };
+      for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+        if (domain.liquid_volume[c] > 0)
+          keep_error(error, [&] { include(domain.liquid_centre[c]); });
+      throw_first(mesh.communicator(), error);
+      result = largest(mesh.communicator(), result);
+      if (result < 0)
+        keep_error(ignored, [&] { include(mesh.middle()); });
+      return std::max(result, 0.);
+    }
+  } // namespace
+
   template <int dim>
   double
   TimeStep<dim>::next(const State<dim>        &state,
@@ -41,7 +68,7 @@ namespace treacle
   {
     // the speed at the end of the step counts: v dt + g dt^2 = CFL h
     const double     v        = maximum_speed(state, domain);
-    const double     g        = domain.scene.gravity(domain.mesh.middle(), state.time).norm();
+    const double     g        = maximum_gravity(domain, state.time);
     const double     distance = prm.cfl * domain.mesh.finest_size();
     double           dt       = prm.maximum;
     if (v + std::sqrt(v * v + 4 * g * distance) > 0)
@@ -65,11 +92,16 @@ namespace treacle
   double
   maximum_speed(const State<dim> &state, const LiquidDomain<dim> &domain)
   {
-    double largest = 0;
+    double speed = 0;
     for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
       if (domain.is_active_node[node])
-        largest = std::max(largest, state.v.value(node).norm());
-    return Utilities::MPI::max(largest, domain.mesh.communicator());
+        speed = larger(speed, state.v.value(node).norm());
+    speed = largest(domain.mesh.communicator(), speed);
+    require(std::isfinite(speed),
+            "The velocity is not finite at t = " + digits(state.time) +
+              " s. Lower Maximum time step or Maximum CFL number; look for a force that grows "
+              "without bound.");
+    return speed;
   }
 
   template class TimeStep<2>;

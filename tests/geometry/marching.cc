@@ -4,6 +4,7 @@
 // The surface in a simplex closes the liquid: its area vectors and those of
 // the wet parts of the faces sum to zero. All sign patterns are listed.
 
+#include <treacle/geometry/cut_simplex.h>
 #include <treacle/geometry/marching.h>
 
 #include <random>

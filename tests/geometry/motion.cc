@@ -66,6 +66,32 @@ show_error(const Parameters<dim> &prm)
     }
 }
 
+/// A vibration of 50 Hz and amplitude 1, given by its velocity; and a velocity that jumps.
+void
+check_integration()
+{
+  const std::string    w = "2*pi*50";
+  const RigidMotion<2> vibration({{}, "0; 0", "0", w + "*cos(" + w + "*t); 0", w + "*cos(" + w + "*t)"},
+                                 "vibration");
+  double               error = 0;
+  for (const double t : {9.9975, 10., 0.0033, 1.2345, 3.3333})
+    {
+      const Pose<2> &pose  = vibration.at(t);
+      const double   exact = std::sin(2 * numbers::PI * 50 * t);
+      error = std::max({error,
+                        std::abs(pose.shift[0] - exact),
+                        std::abs(pose.rotation[0][0] - std::cos(exact)),
+                        std::abs(pose.rotation[1][0] - std::sin(exact))});
+    }
+  const RigidMotion<2> again({{}, "0; 0", "0", w + "*cos(" + w + "*t); 0", w + "*cos(" + w + "*t)"},
+                             "vibration");
+  tests::out() << "50 Hz for 10 s: off by " << size(error) << ", the same when asked at once "
+               << (again.at(3.3333).shift == vibration.at(3.3333).shift ? "yes" : "no")
+               << std::endl;
+  const RigidMotion<2> jump({{}, "0; 0", "0", "if(t < 0.7, 1, 0); 0", "0"}, "jump");
+  tests::out() << "a jump: off by " << size(std::abs(jump.at(5).shift[0] - 0.7)) << std::endl;
+}
+
 void
 start(const int, char **)
 {
@@ -75,6 +101,11 @@ start(const int, char **)
   compare<3>("3D",
              {{0.1, 0.2, 0.3}, "t; 0; sin(t)", "0; 0.3*t^2; 0", "0; 0; 0", "0; 0; 0"},
              {{0.1, 0.2, 0.3}, "0; 0; 0", "0; 0; 0", "1; 0; cos(t)", "0; 0.6*t; 0"});
+
+  compare<2>("no derivative before 0",
+             {{0.1, 0.2}, "0.1*t^1.5; 0", "0", "0; 0", "0"},
+             {{0.1, 0.2}, "0; 0", "0", "0.15*sqrt(t); 0", "0"});
+  check_integration();
 
   // R = Rz(a t) Rx(b t): the angular velocity is a z + Rz(a t) b x
   const RigidMotion<3> motion(

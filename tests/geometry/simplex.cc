@@ -4,7 +4,7 @@
 // Exact identities of the simplex functions on random simplices, and cuts
 // whose moments are known.
 
-#include <treacle/geometry/simplex.h>
+#include <treacle/geometry/cut_simplex.h>
 
 #include <random>
 

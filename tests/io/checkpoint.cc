@@ -5,7 +5,9 @@
 // be resumed is refused; a half-written one is no harm.
 
 #include <treacle/base/exceptions.h>
+#include <treacle/base/exchange.h>
 #include <treacle/io/checkpoint.h>
+#include <treacle/io/row_order.h>
 
 #include <filesystem>
 
@@ -115,6 +117,17 @@ refuse(const MPI_Comm &comm, const typename Octree<dim>::Parameters &parameters)
 }
 
 void
+replace_in_info(const std::string &old, const std::string &now)
+{
+  const std::string path = "out2/checkpoint/info";
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  std::string all = text.str();
+  all.replace(all.find(old), old.size(), now);
+  std::ofstream(path) << all;
+}
+
+void
 check_errors(const MPI_Comm &comm)
 {
   namespace fs             = std::filesystem;
@@ -134,11 +147,90 @@ check_errors(const MPI_Comm &comm)
   fs::rename("out2/checkpoint.old", "out3/checkpoint.new");
   fs::remove_all("out3/checkpoint");
   refuse<3>(comm, tests::ball_mesh<3>());
-  fs::resize_file("out3/checkpoint.new/cells", 1000);
+  fs::resize_file("out3/checkpoint.new/numbers", 1000);
   fs::rename("out3/checkpoint.new", "out2/checkpoint");
+  refuse<2>(comm, tests::ball_mesh<2>());
+  fs::resize_file("out2/checkpoint/leaves", 36);
+  refuse<2>(comm, tests::ball_mesh<2>());
+  replace_in_info("Format = 4", "Format = 3");
   refuse<2>(comm, tests::ball_mesh<2>());
   checkpoint<2>(comm).remove();
   refuse<2>(comm, tests::ball_mesh<2>());
+}
+
+/// An order that one rank on a single cell could not tell: a checkpoint of a run with
+/// material, and the velocity before at nodes or faces.
+template <int dim>
+void
+check_all_parts(const MPI_Comm &comm, const bool at_nodes)
+{
+  const auto make = [&] {
+    State<dim> state = tests::ball_state<dim>(comm);
+    state.material.emplace(state.mesh->nodes);
+    state.material->density.equ(2, state.phi);
+    state.material->viscosity.equ(-3, state.phi);
+    state.material->update_ghost_values();
+    state.before.emplace();
+    state.before->dt = 0.1;
+    if (at_nodes)
+      state.before->v = state.v;
+    else
+      state.before->u = state.u;
+    state.phi = -0.;
+    state.phi.update_ghost_values();
+    return state;
+  };
+  const State<dim> saved = make();
+  checkpoint<dim>(comm).write(saved, {1, {}});
+  const State<dim> loaded =
+    checkpoint<dim>(comm).load(tests::ball_mesh<dim>(), tests::leaf_weight<dim>).first;
+  bool       same = loaded.before->dt == 0.1;
+  const auto add  = [&](const treacle::Vector &a, const treacle::Vector &b) {
+    for (unsigned int i = 0; i < a.locally_owned_size() + a.get_partitioner()->n_ghost_indices(); ++i)
+      same = same && a.local_element(i) == b.local_element(i) &&
+             std::signbit(a.local_element(i)) == std::signbit(b.local_element(i));
+  };
+  add(loaded.phi, saved.phi);
+  add(loaded.material->density, saved.material->density);
+  add(loaded.material->viscosity, saved.material->viscosity);
+  if (at_nodes)
+    for (unsigned int d = 0; d < dim; ++d)
+      add(loaded.before->v->component[d], saved.before->v->component[d]);
+  else
+    add(*loaded.before->u, *saved.before->u);
+  // numbers: phi, v, density, viscosity (and v) of each node, u of each face, pressures
+  const Mesh<dim>    &mesh = *saved.mesh;
+  const std::uint64_t n_numbers =
+    mesh.nodes->size() * (3 + (at_nodes ? 2 : 1) * dim) +
+    mesh.faces->size() * (at_nodes ? 1 : 2) + mesh.cells->size();
+  const bool is_small =
+    std::filesystem::file_size("out" + std::to_string(dim) + "/checkpoint/numbers") == 8 * n_numbers;
+  tests::out() << dim << "D, velocity before at " << (at_nodes ? "nodes" : "faces") << ": "
+               << (Utilities::MPI::min(same ? 1 : 0, comm) == 1 ? "the same bits" : "WRONG")
+               << ", each number " << (is_small ? "once" : "NOT ONCE") << std::endl;
+}
+
+/// Shares of more numbers than 32 bits count, and messages in parts.
+void
+check_large_counts(const MPI_Comm &comm)
+{
+  const std::uint64_t n_rows = 3000000000u, n_ranks = 7;
+  std::uint64_t       next = 0;
+  bool                fits = true;
+  for (unsigned int r = 0; r < n_ranks; ++r)
+    {
+      const Share share = share_of(r, n_ranks, n_rows);
+      fits              = fits && share.first == next && share.n > 0;
+      next += share.n;
+    }
+  PerRank<int> numbers(Utilities::MPI::n_mpi_processes(comm));
+  for (auto &to_rank : numbers)
+    for (int k = 0; k < 20; ++k)
+      to_rank.push_back(k * k);
+  const bool same = send_and_receive(comm, numbers, 7) == numbers;
+  tests::out() << "shares of 3e9 rows " << (fits && next == n_rows ? "ok" : "WRONG")
+               << ", messages in parts "
+               << (Utilities::MPI::min(same ? 1 : 0, comm) == 1 ? "ok" : "WRONG") << std::endl;
 }
 
 void
@@ -160,6 +252,12 @@ start(const int, char **)
   });
   if (rank == 0)
     check_errors(MPI_COMM_SELF);
+  check_large_counts(MPI_COMM_WORLD);
+  for (const bool at_nodes : {false, true})
+    {
+      check_all_parts<2>(MPI_COMM_WORLD, at_nodes);
+      check_all_parts<3>(MPI_COMM_WORLD, at_nodes);
+    }
 }
 
 const Test test("io/checkpoint", start);

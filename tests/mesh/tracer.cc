@@ -109,6 +109,30 @@ check(const MPI_Comm &comm)
                << std::endl;
 }
 
+/// What is not finite lies in no cell.
+void
+check_lost_point()
+{
+  Octree<2>::Parameters prm;
+  prm.upper_corner = Point<2>(1, 1);
+  const Mesh<2> mesh(std::make_shared<const Octree<2>>(
+    MPI_COMM_SELF,
+    prm,
+    [](const std::vector<Leaf<2>> &leaves) { return std::vector<bool>(leaves.size(), false); },
+    [](const Leaf<2> &) { return 1u; }));
+  const treacle::Vector zero  = mesh.zeros(mesh.nodes);
+  std::string           found = "no error";
+  try
+    {
+      Tracer<2>(mesh).evaluate({Point<2>(std::nan(""), 0.5)}, {{&zero}});
+    }
+  catch (const ExceptionBase &error)
+    {
+      found = std::string(error.what()).find("not finite") == std::string::npos ? "another error" : "refused";
+    }
+  tests::out() << "a point that is not finite: " << found << std::endl;
+}
+
 void
 start(const int, char **)
 {
@@ -116,6 +140,7 @@ start(const int, char **)
     check<2>(comm);
     check<3>(comm);
   });
+  check_lost_point();
 }
 
 const Test test("mesh/tracer", start);

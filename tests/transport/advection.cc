@@ -5,13 +5,14 @@
 // twice the cells in each direction and twice the steps: the mean error falls to a half
 // with semi-Lagrangian advection, to a quarter with MacCormack's correction, and no value
 // grows. Then a sphere that rotates freely, by the whole program, with either scheme:
-// the same on 1, 2 and 3 ranks. Argument: levels to add.
+// the same on 1, 2 and 3 ranks. Argument: levels to add. Last the size of a step by gravity,
+// and what is not finite.
 
 #include <treacle/mesh/tracer.h>
 #include <treacle/transport/back_and_forth.h>
 
+#include "../body.h"
 #include "../tests.h"
-#include "../run_scene.h"
 
 #include <numeric>
 
@@ -136,12 +137,60 @@ check_scene(const MPI_Comm &comm, const std::string &scheme)
         << std::endl;
 }
 
+/// The size of a step in still liquid, by gravity where it is, not in the box's middle; and
+/// what is not finite ends all ranks alike.
+void
+check_steps(const MPI_Comm &comm)
+{
+  TimeStep<2>::Parameters prm;
+  prm.frame_interval = prm.maximum = 1;
+  const auto show = [&](const std::string &what, const auto &action) {
+    out() << what << ": ";
+    try
+      {
+        action();
+      }
+    catch (const UserError &error)
+      {
+        out() << error.what();
+      }
+    out() << std::endl;
+  };
+  const std::string r = "sqrt((x-0.5)^2+(y-0.5)^2)";
+  for (const std::string gravity : {std::string("0; -9.81"),
+                                    "-9.81*(x-0.5)/" + r + "; -9.81*(y-0.5)/" + r,
+                                    std::string("-40*(x-0.5); -40*(y-0.5)"),
+                                    std::string("if(x > 0.6, 1/0, 0); 0")})
+    show("gravity " + gravity, [&] {
+      const Body<2> body(comm, "subsection Gravity\nset Acceleration = " + gravity + "\nend\n");
+      out() << TimeStep<2>(prm).next(body.state, body.domain, 1);
+    });
+
+  Body<2>      body(comm, "subsection Liquid 1\nset Centre = 0.5, 0.4\nend\n");
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  if (Utilities::MPI::this_mpi_process(comm) + 1 == Utilities::MPI::n_mpi_processes(comm))
+    for (LocalIndex node = 0; node < body.state.v.component[0].locally_owned_size(); ++node)
+      if (body.domain.is_active_node[node])
+        body.state.v.component[0].local_element(node) = nothing;
+  body.state.v.update_ghost_values();
+  body.state.u = nothing;
+  body.state.u.update_ghost_values();
+  body.state.time = 0.3;
+  show("a velocity that is none", [&] { maximum_speed(body.state, body.domain); });
+  out() << "speed " << measure(body.state, body.domain).maximum_speed << ", divergence "
+        << PressureSystem<2>::maximum_divergence(body.state, body.domain) << std::endl;
+  body.state.material.emplace(body.state.mesh->nodes);
+  body.state.material->update_ghost_values();
+  show("no density", [&] { LiquidDomain<2>(body.prm.liquid_domain, body.state, body.data); });
+}
+
 void
 start(const int argc, char **argv)
 {
   const unsigned int               more = argc > 1 ? std::stoi(argv[1]) : 0;
   out().precision(5);
   on_1_2_3_ranks([&](const MPI_Comm &comm) {
+    check_steps(comm);
     check_errors<2>(comm, 5, 6 + more);
     check_errors<3>(comm, 4, 4 + more);
     for (const char *scheme : {"semi-Lagrangian", "MacCormack"})

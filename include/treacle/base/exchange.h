@@ -8,6 +8,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <type_traits>
 #include <vector>
@@ -19,17 +20,23 @@ namespace treacle
   using PerRank = std::vector<std::vector<T>>;
 
   /// Send to_rank[r] to rank r and return what came from each rank. Collective.
-  /// T must be trivially copyable.
+  /// T must be trivially copyable. MPI counts with 32 bits: a message has @p most entries.
   template <typename T>
   PerRank<T>
-  send_and_receive(const MPI_Comm &comm, const PerRank<T> &to_rank)
+  send_and_receive(const MPI_Comm     &comm,
+                   const PerRank<T>   &to_rank,
+                   const std::uint64_t most = 1u << 30)
   {
     static_assert(std::is_trivially_copyable_v<T>);
-    const unsigned int n = to_rank.size();
-    std::vector<int>   n_send(n), n_receive(n);
+    const unsigned int         n = to_rank.size();
+    std::vector<std::uint64_t> n_send(n), n_receive(n);
     for (unsigned int r = 0; r < n; ++r)
       n_send[r] = to_rank[r].size();
-    MPI_Alltoall(n_send.data(), 1, MPI_INT, n_receive.data(), 1, MPI_INT, comm);
+    MPI_Alltoall(n_send.data(), 1, MPI_UINT64_T, n_receive.data(), 1, MPI_UINT64_T, comm);
+    const auto in_parts = [&](auto *data, const std::uint64_t n, const auto &start) {
+      for (std::uint64_t done = 0; done < n; done += most)
+        start(data + done, static_cast<int>(std::min(most, n - done)));
+    };
 
     PerRank<T> from_rank(n);
     const auto rank = dealii::Utilities::MPI::this_mpi_process(comm);
@@ -43,15 +50,17 @@ namespace treacle
       else if (n_receive[r] > 0)
         {
           from_rank[r].resize(n_receive[r]);
-          requests.emplace_back();
-          MPI_Irecv(from_rank[r].data(), n_receive[r], type, r, 0, comm, &requests.back());
+          in_parts(from_rank[r].data(), n_receive[r], [&](T *data, const int n) {
+            requests.emplace_back();
+            MPI_Irecv(data, n, type, r, 0, comm, &requests.back());
+          });
         }
     for (unsigned int r = 0; r < n; ++r)
-      if (r != rank && n_send[r] > 0)
-        {
+      if (r != rank)
+        in_parts(to_rank[r].data(), n_send[r], [&](const T *data, const int n) {
           requests.emplace_back();
-          MPI_Isend(to_rank[r].data(), n_send[r], type, r, 0, comm, &requests.back());
-        }
+          MPI_Isend(data, n, type, r, 0, comm, &requests.back());
+        });
     MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
     MPI_Type_free(&type);
     return from_rank;

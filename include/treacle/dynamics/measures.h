@@ -28,11 +28,11 @@ namespace treacle
     Point<dim>  lower, upper;         ///< smallest box (m); not a number without liquid
     double      potential_energy = 0; ///< from the box's lower corner, J
     double      dissipation      = 0; ///< by viscosity, W
-    double      maximum_speed    = 0; ///< of nodes in the liquid, m/s
+    double      maximum_speed    = 0; ///< of nodes in the liquid, m/s; not a number if one is none
     Motion<dim> of_faces, of_nodes;
   };
 
-  /// Collective.
+  /// Throws a UserError on all ranks where gravity is not finite. Collective.
   template <int dim>
   Measures<dim>
   measure(const State<dim> &state, const LiquidDomain<dim> &domain);

@@ -4,6 +4,7 @@
 #ifndef treacle_fields_cut_cells_h
 #define treacle_fields_cut_cells_h
 
+#include <treacle/geometry/cut_simplex.h>
 #include <treacle/mesh/mesh.h>
 #include <treacle/scene/scene.h>
 

@@ -5,47 +5,15 @@
 #define treacle_geometry_motion_h
 
 #include <treacle/geometry/expression.h>
+#include <treacle/geometry/velocity_integral.h>
 
 #include <deal.II/base/parameter_handler.h>
 
 namespace treacle
 {
-  /// Where a rigid body is at one time, and how it moves.
-  template <int dim>
-  struct Pose
-  {
-    Point<dim>     start;    ///< the centre of rotation at t = 0 (m)
-    Tensor<1, dim> shift;    ///< of that centre since then (m)
-    Tensor<2, dim> rotation; ///< since t = 0
-    Tensor<1, dim> velocity; ///< of the centre (m/s)
-    Tensor<2, dim> spin;     ///< antisymmetric: spin * r is angular velocity x r (1/s)
-
-    /// Where the material point that is at @p x now was at t = 0.
-    Point<dim>
-    at_start(const Point<dim> &x) const
-    {
-      return start + transpose(rotation) * (x - shift - start);
-    }
-
-    /// Where the material point is now that was at @p x at t = 0.
-    Point<dim>
-    now(const Point<dim> &x) const
-    {
-      return start + shift + rotation * (x - start);
-    }
-
-    Tensor<1, dim>
-    velocity_at(const Point<dim> &x) const
-    {
-      return velocity + spin * (x - shift - start);
-    }
-  };
-
-
-
   /// The motion of a solid: its position and rotation as formulas, or its velocities,
   /// which are integrated from t = 0. A function of time alone, so that a
-  /// resumed run finds the solid at the same place.
+  /// resumed run finds the solid at the same place. Formulas are asked for at t >= 0 only.
   template <int dim>
   class RigidMotion
   {
@@ -88,7 +56,7 @@ namespace treacle
       velocity
     };
 
-    static constexpr unsigned int n_rotations = dim == 2 ? 1 : 3;
+    static constexpr int n_rotations = Pose<dim>::n_rotations;
 
     /// The value of formulas at t. Throws a UserError where it is not finite.
     Tensor<1, dim>
@@ -109,6 +77,7 @@ namespace treacle
     std::vector<Expression<dim>> translations, turns;
     mutable Pose<dim>            last; ///< at time last_time
     mutable double               last_time;
+    mutable VelocityIntegral<dim> integral; ///< of the motion by velocities
   };
 } // namespace treacle
 

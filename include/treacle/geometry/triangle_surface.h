@@ -8,6 +8,8 @@
 
 #include <deal.II/base/bounding_box.h>
 
+#include <mpi.h>
+
 #include <memory>
 #include <string>
 
@@ -31,11 +33,12 @@ namespace treacle
   class TriangleSurface
   {
   public:
-    /// @p where names the parameter in messages. Throws a UserError if the
-    /// file cannot be read or the surface is not closed.
+    /// The first rank reads the file. @p where names the parameter in messages. Throws a
+    /// UserError on all ranks if it cannot be read or the surface is not closed. Collective.
     TriangleSurface(const std::string &file,
                     const Placement   &placement,
-                    const std::string &where);
+                    const std::string &where,
+                    const MPI_Comm    &comm = MPI_COMM_SELF);
     ~TriangleSurface();
 
     /// Distance (m) to the nearest triangle, negative inside.

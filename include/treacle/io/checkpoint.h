@@ -68,17 +68,14 @@ namespace treacle
     std::pair<std::string, CheckpointInfo>
     find(const std::string &mesh_type) const;
 
-    /// From the rows of the cells of this rank, and the other files in @p directory.
-    std::pair<State<dim>, Progress>
-    load_state(std::shared_ptr<const Mesh<dim>> mesh,
-               const std::string               &directory,
-               const CheckpointInfo            &info,
-               const std::vector<double>       &rows) const;
+    /// Put the fresh one in the place of the older one; what went wrong, or nothing.
+    std::string
+    replace() const;
 
-    std::shared_ptr<const Octree<dim>>
-    load_octree(const std::string                                    &directory,
-                const typename Octree<dim>::Parameters               &parameters,
-                const std::function<unsigned int(const Leaf<dim> &)> &weight) const;
+    std::pair<State<dim>, Progress>
+    load(std::shared_ptr<const Mesh<dim>> mesh,
+         const std::string               &directory,
+         const CheckpointInfo            &info) const;
 
     MPI_Comm     comm;
     unsigned int interval;

@@ -4,6 +4,7 @@
 #ifndef treacle_io_checkpoint_info_h
 #define treacle_io_checkpoint_info_h
 
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -19,6 +20,12 @@ namespace treacle
     /// Throws a UserError if there is no such line.
     std::string
     get(const std::string &name) const;
+
+    /// Throw a UserError if there is none.
+    double
+    number(const std::string &name) const;
+    std::uint64_t
+    count(const std::string &name) const;
 
     /// All numbers under names that begin with @p prefix, without it.
     std::map<std::string, double>

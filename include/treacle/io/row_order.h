@@ -8,14 +8,29 @@
 
 namespace treacle
 {
+  /// Rows that one rank reads and writes of those that all ranks share.
+  struct Share
+  {
+    std::uint64_t first, n;
+  };
+
+  /// The share of @p rank: as many rows as the others have, but for the last ones.
+  inline Share
+  share_of(const std::uint64_t rank, const std::uint64_t n_ranks, const std::uint64_t n_rows)
+  {
+    const std::uint64_t most  = (n_rows + n_ranks - 1) / n_ranks;
+    const std::uint64_t first = std::min(rank * most, n_rows);
+    return {first, std::min(most, n_rows - first)};
+  }
+
   /// Rows of numbers, one for each cell, in the order of the cells' numbers, which no
-  /// partition changes: rank r holds an equal share of them.
+  /// partition changes: each rank holds a share of them.
   template <int dim>
   class RowOrder
   {
   public:
-    /// @p size: numbers in a row.
-    RowOrder(const Mesh<dim> &mesh, const unsigned int size);
+    /// @p sizes: numbers in the row of each owned cell. Collective.
+    RowOrder(const Mesh<dim> &mesh, const std::vector<unsigned int> &sizes);
 
     /// From rows in the order of owned cells to the share of this rank. Collective.
     std::vector<double>
@@ -26,24 +41,25 @@ namespace treacle
     rows(const std::vector<double> &share) const;
 
     /// Numbers before, and in, the share of this rank.
-    std::size_t
+    std::uint64_t
     offset() const
     {
-      return first * size;
+      return n_before;
     }
 
-    std::size_t
+    std::uint64_t
     n_numbers() const
     {
-      return n_rows * size;
+      return start.back();
     }
 
   private:
-    const Mesh<dim>                      &mesh;
-    const unsigned int                    size;
-    GlobalIndex                           first = 0, n_rows = 0;
-    std::vector<std::vector<LocalIndex>>  sent_to;       ///< owned cells by the rank of their row
-    std::vector<std::vector<GlobalIndex>> received_from; ///< numbers of rows by their cell's rank
+    const MPI_Comm comm;
+    /// Where the rows of owned cells begin, and those of the share; with the ends.
+    std::vector<std::uint64_t>              own_start, start;
+    std::uint64_t                           n_before = 0;
+    std::vector<std::vector<LocalIndex>>    sent_to;       ///< owned cells by the rank of their row
+    std::vector<std::vector<std::uint64_t>> received_from; ///< rows of the share by their cell's rank
   };
 } // namespace treacle
 

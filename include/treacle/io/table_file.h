@@ -25,8 +25,8 @@ namespace treacle
     static std::vector<T>
     read(const MPI_Comm    &comm,
          const std::string &path,
-         const std::size_t  offset,
-         const std::size_t  n);
+         const std::uint64_t offset,
+         const std::uint64_t n);
   };
 } // namespace treacle
 

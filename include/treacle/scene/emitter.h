@@ -29,10 +29,11 @@ namespace treacle
     };
 
     /// @p where names the subsection in messages; what @p parameters leave out of the
-    /// material is as in @p otherwise.
+    /// material is as in @p otherwise. Collective.
     Emitter(const Parameters    &parameters,
             const std::string   &where,
-            const Material<dim> &otherwise);
+            const Material<dim> &otherwise,
+            const MPI_Comm      &comm);
 
     /// Negative inside (m).
     double

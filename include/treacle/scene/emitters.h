@@ -15,8 +15,11 @@ namespace treacle
   public:
     using Parameters = std::vector<typename Emitter<dim>::Parameters>;
 
-    /// What their parameters leave out of a material is as in @p otherwise.
-    Emitters(const Parameters &parameters, const Material<dim> &otherwise);
+    /// What their parameters leave out of a material is as in @p otherwise. Collective, for the
+    /// first rank reads files.
+    Emitters(const Parameters    &parameters,
+             const Material<dim> &otherwise,
+             const MPI_Comm      &comm);
 
     const std::vector<Emitter<dim>> &
     emitters() const

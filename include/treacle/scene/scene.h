@@ -58,8 +58,9 @@ namespace treacle
       add_material_and_gravity(ParameterHandler &prm);
     };
 
-    /// Throws a UserError that names the parameter at fault.
-    explicit Scene(const Parameters &parameters);
+    /// Throws a UserError on all ranks that names the parameter at fault. Collective, for the
+    /// first rank reads files.
+    explicit Scene(const Parameters &parameters, const MPI_Comm &comm = MPI_COMM_SELF);
 
     const Point<dim> &
     lower_corner() const;

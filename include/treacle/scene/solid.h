@@ -26,8 +26,11 @@ namespace treacle
       add_parameters(ParameterHandler &prm);
     };
 
-    /// @p where names the subsection in messages.
-    Solid(const Parameters &parameters, const std::string &where, const BoundingBox<dim> &box);
+    /// @p where names the subsection in messages. Collective.
+    Solid(const Parameters       &parameters,
+          const std::string      &where,
+          const BoundingBox<dim> &box,
+          const MPI_Comm         &comm);
 
     bool
     is_moving() const
@@ -47,7 +50,8 @@ namespace treacle
     Point<dim>
     centre(const double t) const;
 
-    /// Throws a UserError if it moves, was in the box, and has left it at t.
+    /// Throws a UserError if it moves, was in the box, and has left it at t, or if its
+    /// motion is not finite then.
     void
     check(const double t) const;
 

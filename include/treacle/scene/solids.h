@@ -15,7 +15,8 @@ namespace treacle
   public:
     using Parameters = std::vector<typename Solid<dim>::Parameters>;
 
-    Solids(const Parameters &parameters, const BoundingBox<dim> &box);
+    /// Collective, for the first rank reads files.
+    Solids(const Parameters &parameters, const BoundingBox<dim> &box, const MPI_Comm &comm);
 
     bool
     has_solids() const;
@@ -49,7 +50,8 @@ namespace treacle
     Point<dim>
     solid_centre(const unsigned int k, const double t) const;
 
-    /// Throws a UserError if a moving solid has left the box.
+    /// Throws a UserError if a moving solid has left the box, or its motion is not finite:
+    /// for all ranks together, before some of them ask where solids are at t.
     void
     check_solids(const double t) const;
 

@@ -27,6 +27,7 @@ namespace treacle
       double     distance; ///< m, not signed; infinite if beyond the reach
     };
 
+    /// Of points that are as near the one of smallest coordinates, whatever the partition.
     Nearest
     nearest(const Point<dim> &x) const;
 
@@ -38,11 +39,23 @@ namespace treacle
     /// Append those of this rank and of others.
     void
     gather_facets(const Mesh<dim> &mesh, const Surface<dim> &surface);
+    /// A facet, and its point that is nearest.
+    struct Candidate
+    {
+      Point<dim>   point;
+      double       distance;
+      unsigned int facet;
+    };
+
+    /// All facets that are as near as any.
+    void
+    find_near(const Point<dim> &x, std::vector<Candidate> &candidates) const;
 
     double
     distance_beyond_box(const Point<dim> &x, const Point<dim> &nearest, const Facet &facet) const;
 
     const BoundingBox<dim> box;
+    const double           tolerance; ///< of distances and coordinates that are the same (m)
 
     std::vector<Facet>                             facets;
     RTree<std::pair<BoundingBox<dim>, unsigned int>> tree;

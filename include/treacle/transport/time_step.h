@@ -38,7 +38,8 @@ namespace treacle
       : prm(parameters)
     {}
 
-    /// Size of the step from state.time (s); steps end exactly on frames.
+    /// Size of the step from state.time (s); steps end exactly on frames. Throws a UserError
+    /// on all ranks where velocity or gravity is not finite. Collective.
     double
     next(const State<dim> &state, const LiquidDomain<dim> &domain, const unsigned int frame) const;
 
@@ -70,7 +71,8 @@ namespace treacle
     const Parameters prm;
   };
 
-  /// Largest speed of an active node over all ranks (m/s).
+  /// Largest speed of an active node over all ranks (m/s). Throws a UserError on all of them
+  /// if it is not finite. Collective.
   template <int dim>
   double
   maximum_speed(const State<dim> &state, const LiquidDomain<dim> &domain);
