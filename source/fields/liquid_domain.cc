@@ -9,34 +9,6 @@
 
 namespace treacle
 {
-  namespace
-  {
-    template <int dim>
-    VertexValues<dim>
-    cell_values(const Mesh<dim> &mesh, const LocalIndex cell, const std::vector<double> &values)
-    {
-      VertexValues<dim> result;
-      for (unsigned int i = 0; i <= dim; ++i)
-        result[i] = values[mesh.cell_nodes[cell][i]];
-      return result;
-    }
-  } // namespace
-
-  template <int dim>
-  double
-  liquid_volume(const MeshData<dim> &data, const Vector &phi, const double time)
-  {
-    const Mesh<dim>           &mesh   = data.mesh;
-    const std::vector<double> &psi    = data.solid_distance(time);
-    double                     volume = 0;
-    for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
-      volume += liquid_moments<dim>(mesh.cell_vertices(c),
-                                    mesh.values(c, phi),
-                                    cell_values(mesh, c, psi))
-                  .volume;
-    return Utilities::MPI::sum(volume, mesh.communicator());
-  }
-
   template <int dim>
   void
   LiquidDomain<dim>::Parameters::add_parameters(ParameterHandler &prm)
@@ -99,8 +71,8 @@ namespace treacle
     const VertexValues<dim> phi     = mesh.values(c, state.phi);
     const Simplex<dim>      x       = mesh.cell_vertices(c);
     const Moments<dim>      moments =
-      liquid_moments<dim>(x, phi, cell_values(mesh, c, solid_distance));
-    const VertexValues<dim> held    = cell_values(mesh, c, held_distance);
+      liquid_moments<dim>(x, phi, mesh.values(c, solid_distance));
+    const VertexValues<dim> held    = mesh.values(c, held_distance);
     const bool              is_open = *std::max_element(held.begin(), held.end()) > 0;
     dual_distance[c]                = phi[0];
     for (unsigned int i = 0; i <= dim; ++i)
@@ -322,10 +294,6 @@ namespace treacle
     return Utilities::MPI::sum(volume, mesh.communicator());
   }
 
-  template double
-  liquid_volume(const MeshData<2> &, const Vector &, const double);
-  template double
-  liquid_volume(const MeshData<3> &, const Vector &, const double);
   template class LiquidDomain<2>;
   template class LiquidDomain<3>;
 } // namespace treacle

@@ -176,7 +176,7 @@ namespace treacle
         if (owners[k].rank != rank)
           continue;
         const Location<dim> location = locator.locate_here(owners[k].point);
-        AssertThrow(location.cell != invalid, ExcMessage("No cell contains " + name(k) + "."));
+        AssertThrow(location.cell != invalid, ExcMessage("No cell contains " + numbered("Probe", k) + "."));
         const auto values = interpolate(state, location, pressure);
         std::copy(values.begin(), values.end(), numbers.begin() + k * (dim + 1));
       }

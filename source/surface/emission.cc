@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/exchange.h>
+#include <treacle/fields/liquid_volume.h>
 #include <treacle/surface/emission.h>
 
 namespace treacle

@@ -10,8 +10,6 @@
 
 namespace treacle
 {
-  namespace bgi = boost::geometry::index;
-
   template <int dim>
   SurfaceDistance<dim>::SurfaceDistance(const Mesh<dim>    &mesh,
                                         const Surface<dim> &surface,
@@ -21,13 +19,7 @@ namespace treacle
     , tolerance(1e-12 * box.side_length(0))
   {
     gather_facets(mesh, surface);
-    std::vector<std::pair<BoundingBox<dim>, unsigned int>> entries;
-    for (unsigned int k = 0; k < facets.size(); ++k)
-      entries.emplace_back(
-        BoundingBox<dim>(std::vector<Point<dim>>(facets[k].begin(), facets[k].end())), k);
-    tree = pack_rtree(entries);
-    if (!tree.empty())
-      boost::geometry::convert(tree.bounds(), bounds);
+    tree = FacetTree<dim>(facets);
   }
 
   template <int dim>
@@ -75,33 +67,20 @@ namespace treacle
 
   template <int dim>
   void
-  SurfaceDistance<dim>::find_near(const Point<dim> &x, std::vector<Candidate> &candidates) const
+  SurfaceDistance<dim>::find_near(const Point<dim> &x) const
   {
-    // boxes in the order of their distance, more of them until no other can hold a facet as
-    // near (an incremental query costs far more)
+    candidates.clear();
     double least = reach;
-    std::vector<std::pair<BoundingBox<dim>, unsigned int>> boxes;
-    for (unsigned int k = 8;; k *= 8)
-      {
-        boxes.clear();
-        candidates.clear();
-        tree.query(bgi::nearest(x, k), std::back_inserter(boxes));
-        double farthest_box = 0;
-        for (const auto &[around, facet] : boxes)
-          {
-            farthest_box       = std::max(farthest_box, boost::geometry::distance(x, around));
-            const Point<dim> p = nearest_point(facets[facet], x);
-            candidates.push_back({p, p.distance(x), facet});
-            least = std::min(least, candidates.back().distance);
-          }
-        if (boxes.size() < k || farthest_box > least + tolerance)
-          break;
-      }
-    candidates.erase(std::remove_if(candidates.begin(),
-                                    candidates.end(),
-                                    [&](const Candidate &c) {
-                                      return c.distance >= reach || c.distance > least + tolerance;
-                                    }),
+    tree.search(x, reach, [&](const unsigned int facet) {
+      const Point<dim> p = nearest_point(facets[facet], x);
+      const double     d = p.distance(x);
+      if (d < reach && d <= least + tolerance)
+        candidates.push_back({p, d, facet});
+      least = std::min(least, d);
+      return least + tolerance;
+    });
+    const auto is_farther = [&](const Candidate &c) { return c.distance > least + tolerance; };
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), is_farther),
                      candidates.end());
   }
 
@@ -110,13 +89,10 @@ namespace treacle
   SurfaceDistance<dim>::nearest(const Point<dim> &x) const
   {
     Nearest best{x, std::numeric_limits<double>::infinity()};
-    if (tree.empty() || boost::geometry::distance(x, bounds) > reach)
-      return best;
     // on the box a nearest point is often the corner of several facets, and in a plane of
     // symmetry two points are as near: all of them count, for their order depends on the
     // partition
-    std::vector<Candidate> candidates;
-    find_near(x, candidates);
+    find_near(x);
     for (const Candidate &c : candidates)
       {
         if (&c == &candidates.front() || comes_first(c.point, best.point, tolerance))

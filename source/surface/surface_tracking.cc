@@ -2,7 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/choice.h>
-#include <treacle/fields/liquid_domain.h>
+#include <treacle/fields/liquid_volume.h>
 #include <treacle/surface/marker_correction.h>
 #include <treacle/surface/marker_seeding.h>
 #include <treacle/surface/redistance.h>

@@ -9,6 +9,7 @@
 #include "../run_scene.h"
 
 #include <treacle/surface/redistance.h>
+#include <treacle/fields/liquid_volume.h>
 #include <treacle/surface/surface.h>
 #include <treacle/transport/advection.h>
 #include <treacle/transport/remesh.h>

@@ -10,12 +10,6 @@
 
 namespace treacle
 {
-  /// Volume of { phi < 0 } outside solids over all ranks (m^dim); @p phi with
-  /// up-to-date ghosts.
-  template <int dim>
-  double
-  liquid_volume(const MeshData<dim> &data, const Vector &phi, const double time);
-
   /// Where the liquid is, and how much of it a cell, face and node carries:
   /// computed once for each surface. Arrays run over owned entries and ghosts.
   template <int dim>

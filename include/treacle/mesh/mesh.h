@@ -15,13 +15,7 @@
 namespace treacle
 {
   template <int dim>
-  class LatticeMesh;
-
-  template <int dim>
   class Locator;
-
-  template <int dim>
-  struct MeshNumbering;
 
   /// A distributed simplex mesh as flat arrays, numbered by deal.II.
   /// Never changed: a new surface makes a new mesh. Arrays hold the owned
@@ -151,6 +145,15 @@ namespace treacle
       return w;
     }
 
+    VertexValues<dim>
+    values(const LocalIndex cell, const std::vector<double> &v) const
+    {
+      VertexValues<dim> w;
+      for (unsigned int i = 0; i <= dim; ++i)
+        w[i] = v[cell_nodes[cell][i]];
+      return w;
+    }
+
     unsigned int
     n_owned_cells() const
     {
@@ -169,7 +172,6 @@ namespace treacle
       return nodes->locally_owned_size();
     }
 
-    /// A ghosted vector of zeros.
     static Vector
     zeros(const Partitioner &partitioner)
     {
@@ -177,40 +179,8 @@ namespace treacle
     }
 
   private:
-    void
-    make(const MeshCells<dim> &mesh_cells);
-
-    void
-    fill_cells(const MeshCells<dim> &mesh_cells, const MeshNumbering<dim> &numbering);
-
-    void
-    fill_faces();
-
-    /// All that the first cell of a face tells, whose node opposite is its node i.
-    void
-    fill_face(const LocalIndex face, const LocalIndex cell, const unsigned int i);
-
-    void
-    agree_on_ghost_faces();
-
-    /// Dual lengths below @p least, a part of the distance of the barycentres along the
-    /// normal, are lengthened to it; 0: none.
-    void
-    measure_dual_edges(const double least);
-
-    /// The second cell's dual centre; on the box, below the first's.
-    Point<dim>
-    end_of_dual_edge(const LocalIndex face) const;
-
-    Point<dim>
-    barycentre(const LocalIndex cell) const;
-
-    void
-    fill_nodes();
-
-    /// Around all nodes.
-    BoundingBox<dim>
-    find_box() const;
+    /// Fills the arrays.
+    struct Maker;
 
     const MPI_Comm                      comm;
     std::shared_ptr<const Octree<dim>>  tree; ///< null for a mesh from a file
@@ -218,12 +188,6 @@ namespace treacle
     BoundingBox<dim>                    around;
     double                              finest, largest_at_surface;
   };
-
-  /// Over the lattice, or by a tree of cells if there is none. Defined with the locators, which
-  /// know the mesh. Collective.
-  template <int dim>
-  std::shared_ptr<const Locator<dim>>
-  make_locator(const Mesh<dim> &mesh, std::unique_ptr<const LatticeMesh<dim>> lattice);
 } // namespace treacle
 
 #endif

@@ -4,7 +4,8 @@
 #ifndef treacle_surface_emission_h
 #define treacle_surface_emission_h
 
-#include <treacle/fields/liquid_domain.h>
+#include <treacle/fields/mesh_data.h>
+#include <treacle/fields/state.h>
 
 namespace treacle
 {

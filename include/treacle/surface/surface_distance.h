@@ -4,9 +4,10 @@
 #ifndef treacle_surface_surface_distance_h
 #define treacle_surface_surface_distance_h
 
+#include <treacle/geometry/facet_tree.h>
 #include <treacle/surface/surface.h>
 
-#include <deal.II/numerics/rtree.h>
+#include <deal.II/base/bounding_box.h>
 
 namespace treacle
 {
@@ -47,9 +48,9 @@ namespace treacle
       unsigned int facet;
     };
 
-    /// All facets that are as near as any.
+    /// Those of all facets that are as near as any, into candidates.
     void
-    find_near(const Point<dim> &x, std::vector<Candidate> &candidates) const;
+    find_near(const Point<dim> &x) const;
 
     double
     distance_beyond_box(const Point<dim> &x, const Point<dim> &nearest, const Facet &facet) const;
@@ -57,9 +58,10 @@ namespace treacle
     const BoundingBox<dim> box;
     const double           tolerance; ///< of distances and coordinates that are the same (m)
 
-    std::vector<Facet>                             facets;
-    RTree<std::pair<BoundingBox<dim>, unsigned int>> tree;
-    BoundingBox<dim>                               bounds; ///< of all facets
+    std::vector<Facet> facets;
+    FacetTree<dim>     tree;
+
+    mutable std::vector<Candidate> candidates; ///< scratch
   };
 } // namespace treacle
 

@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/mesh/lattice_locator.h>
+#include <treacle/mesh/make_locator.h>
 #include <treacle/mesh/tree_locator.h>
 
 namespace treacle
