@@ -28,7 +28,7 @@ namespace treacle
                       Patterns::Double(1e-15, 0.1));
     prm.add_parameter("Maximum iterations",
                       maximum_iterations,
-                      "A step that needs more is taken by split with first pressure.",
+                      "A step that needs more is taken by split with first projection.",
                       Patterns::Integer(1));
     prm.leave_subsection();
     prm.leave_subsection();
