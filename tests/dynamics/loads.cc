@@ -11,7 +11,7 @@
 
 #include <iomanip>
 
-namespace tests::loads_test
+namespace tests::dynamics_loads
 {
 namespace
 {
@@ -183,4 +183,4 @@ start(const int, char **)
 }
 
 const Test test("dynamics/loads", start);
-} // namespace tests::loads_test
+} // namespace tests::dynamics_loads

@@ -10,7 +10,7 @@
 
 #include <iomanip>
 
-namespace tests::reconstruction_test
+namespace tests::dynamics_reconstruction
 {
 namespace
 {
@@ -48,7 +48,8 @@ namespace
     for (const auto &field : {&rigid<dim>, &smooth<dim>})
       {
         body.set_velocity(field);
-        Reconstruction<dim>(body.prm.dynamics.reconstruction).advance(body.state, body.fit, 0);
+        Reconstruction<dim>(body.prm.dynamics.reconstruction).advance(
+          body.state, body.fit, SurfaceGeometry<dim>(body.state.mesh, body.state.phi), 0);
         double error = 0, size = 0, worst = 0;
         for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
           if (body.domain.is_active_node[node])
@@ -98,4 +99,4 @@ start(const int argc, char **argv)
 }
 
 const Test test("dynamics/reconstruction", start);
-} // namespace tests::reconstruction_test
+} // namespace tests::dynamics_reconstruction

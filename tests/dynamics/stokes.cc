@@ -10,7 +10,7 @@
 #include "../tests.h"
 #include "../run_scene.h"
 
-namespace tests::stokes_test
+namespace tests::dynamics_stokes
 {
 namespace
 {
@@ -182,4 +182,4 @@ start(const int, char **)
 }
 
 const Test test("dynamics/stokes", start);
-} // namespace tests::stokes_test
+} // namespace tests::dynamics_stokes
