@@ -8,6 +8,7 @@ lines. A function counts from its return type to its closing brace.
 usage: check_sizes.py [ROOT]    exit code 1 if any is longer than the tolerance in LIMITS
 """
 
+import argparse
 import pathlib
 import re
 import sys
@@ -78,7 +79,10 @@ def lengths(root):
 
 
 def main():
-    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent)
+    parser = argparse.ArgumentParser(description="Lists functions, sources and headers that are too long.")
+    parser.add_argument("root", metavar="ROOT", nargs="?", type=pathlib.Path,
+                        default=pathlib.Path(__file__).parent.parent)
+    root = parser.parse_args().root
     too_long = False
     for kind, n, place in lengths(root):
         limit, tolerance = LIMITS[kind]

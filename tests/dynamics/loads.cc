@@ -118,7 +118,7 @@ namespace
   {
     const Row row =
       run_scene<dim>(comm,
-                     box_with_balls<dim>(dim == 2 ? 5 : 3,
+                     box_with_balls<dim>(dim == 2 ? 5 : 4,
                                          0,
                                          std::string("subsection Liquid 1\nset Shape = half space\n") +
                                            "set Centre = " + point<dim>(0, 0.9) +
