@@ -43,15 +43,15 @@ namespace treacle
       Vector label;
 
     private:
-      /// Call @p visit with the numbered cells across liquid faces.
+      /// Call @p visit with the numbered cells across liquid faces, owned ones or ghosts.
       template <typename Visit>
       void
-      for_each_neighbour(const LocalIndex c, const Visit &visit) const
+      for_each_neighbour(const LocalIndex c, const bool owned, const Visit &visit) const
       {
         for (const LocalIndex f : mesh.cell_faces[c])
           for (const LocalIndex other : mesh.face_cells[f])
             if (other != invalid && other != c && domain.is_liquid_face(f) &&
-                label.local_element(other) >= 0)
+                (other < mesh.n_owned_cells()) == owned && label.local_element(other) >= 0)
               visit(other);
       }
 
@@ -63,9 +63,9 @@ namespace treacle
           {
             const LocalIndex c = stack.back();
             stack.pop_back();
-            for_each_neighbour(c, [&](const LocalIndex other) {
+            for_each_neighbour(c, true, [&](const LocalIndex other) {
               double &mine = label.local_element(c), &theirs = label.local_element(other);
-              if (other >= mesh.n_owned_cells() || theirs == mine)
+              if (theirs == mine)
                 return;
               stack.push_back(theirs > mine ? other : c);
               theirs = mine = std::min(mine, theirs);
@@ -77,9 +77,8 @@ namespace treacle
       hear_from_ghosts()
       {
         for (const LocalIndex c : cells.owned)
-          for_each_neighbour(c, [&](const LocalIndex other) {
-            if (other < mesh.n_owned_cells() ||
-                label.local_element(other) >= label.local_element(c))
+          for_each_neighbour(c, false, [&](const LocalIndex other) {
+            if (label.local_element(other) >= label.local_element(c))
               return;
             label.local_element(c) = label.local_element(other);
             stack.push_back(c);

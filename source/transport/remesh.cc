@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/mesh/lattice_mesh.h>
 #include <treacle/surface/surface.h>
 #include <treacle/transport/remesh.h>
 
@@ -24,6 +25,39 @@ namespace treacle
           for (const Point<dim> &p : surface.facet_points(k))
             centre += p / dim;
           x.push_back(centre);
+        }
+      return x;
+    }
+
+    /// The same of the liquids at t = 0 on the lattice of an octree: no mesh is needed for that.
+    template <int dim>
+    std::vector<Point<dim>>
+    sample_points(const std::shared_ptr<const Octree<dim>> &octree, const Scene<dim> &scene)
+    {
+      const MeshCells<dim> mesh = LatticeMesh<dim>(octree).take_cells();
+      const unsigned int   rank = Utilities::MPI::this_mpi_process(octree->communicator());
+      std::vector<double>  phi;
+      for (const auto &vertex : mesh.vertices)
+        phi.push_back(scene.liquid_distance(vertex.position));
+      std::vector<Point<dim>> x;
+      for (const auto &cell : mesh.cells)
+        {
+          VertexValues<dim> values;
+          for (unsigned int v = 0; v <= dim; ++v)
+            values[v] = phi[cell.vertex[v]];
+          const Facets<dim> facets = surface_facets<dim>(values);
+          for (unsigned int k = 0; k < facets.n && cell.owner == rank; ++k)
+            {
+              Point<dim> centre;
+              for (const auto &[a, b] : facets.facet[k])
+                {
+                  const Point<dim> &from = mesh.vertices[cell.vertex[a]].position;
+                  const Point<dim> &to   = mesh.vertices[cell.vertex[b]].position;
+                  x.push_back(from + edge_zero(values[a], values[b]) * (to - from));
+                  centre += x.back() / dim;
+                }
+              x.push_back(centre);
+            }
         }
       return x;
     }
@@ -76,13 +110,13 @@ namespace treacle
     /// Refine where @p is_near says, inside the liquid to the interior level and
     /// everywhere to the air level.
     template <int dim>
-    std::shared_ptr<const Mesh<dim>>
-    build(const MPI_Comm                         &comm,
-          const typename Octree<dim>::Parameters &prm,
-          const std::function<std::vector<bool>(const std::vector<Leaf<dim>> &)> &is_near,
-          const LevelSet<dim>                                                    &phi)
+    std::shared_ptr<const Octree<dim>>
+    grow(const MPI_Comm                         &comm,
+         const typename Octree<dim>::Parameters &prm,
+         const std::function<std::vector<bool>(const std::vector<Leaf<dim>> &)> &is_near,
+         const LevelSet<dim>                                                    &phi)
     {
-      auto octree = std::make_shared<const Octree<dim>>(
+      return std::make_shared<const Octree<dim>>(
         comm,
         prm,
         [&](const std::vector<Leaf<dim>> &leaves) {
@@ -103,7 +137,6 @@ namespace treacle
           return refine;
         },
         &leaf_weight<dim>);
-      return std::make_shared<const Mesh<dim>>(octree);
     }
   } // namespace
 
@@ -121,7 +154,7 @@ namespace treacle
     };
     // first where the distance is small, then around what was found: an
     // expression need not be a distance
-    const auto mesh = build<dim>(
+    const auto octree = grow<dim>(
       comm,
       prm,
       [&](const std::vector<Leaf<dim>> &leaves) {
@@ -134,15 +167,9 @@ namespace treacle
         return near;
       },
       phi);
-    Vector values = mesh->zeros(mesh->nodes);
-    for (LocalIndex node = 0; node < mesh->n_owned_nodes(); ++node)
-      values.local_element(node) = scene.liquid_distance(mesh->node_position[node]);
-    values.update_ghost_values();
-    const Band<dim> band(mesh->octree(),
-                         sample_points(extract_surface(*mesh, values)),
-                         prm.band_width);
-    return build<dim>(
-      comm, prm, [&](const auto &leaves) { return near_surface(band, prm, scene, 0., leaves); }, phi);
+    const Band<dim> band(*octree, sample_points<dim>(octree, scene), prm.band_width);
+    return std::make_shared<const Mesh<dim>>(grow<dim>(
+      comm, prm, [&](const auto &leaves) { return near_surface(band, prm, scene, 0., leaves); }, phi));
   }
 
   template <int dim>
@@ -165,7 +192,7 @@ namespace treacle
     if (Band<dim>(octree, moved, 1).is_finest_in(octree))
       return state.mesh;
     const Band<dim> band(octree, moved, octree.parameters().band_width);
-    return build<dim>(
+    return std::make_shared<const Mesh<dim>>(grow<dim>(
       mesh.communicator(),
       octree.parameters(),
       [&](const auto &leaves) {
@@ -176,7 +203,7 @@ namespace treacle
         for (unsigned int i = 0; i < x.size(); ++i)
           phi[i] = std::min(phi[i], scene.emitter_distance(x[i], state.time + dt));
         return phi;
-      });
+      }));
   }
 
 #define INSTANTIATE(dim)                                                        \

@@ -11,7 +11,7 @@
 
 #include <iomanip>
 
-namespace tests::loads_test
+namespace tests::dynamics_loads
 {
 namespace
 {
@@ -118,7 +118,7 @@ namespace
   {
     const Row row =
       run_scene<dim>(comm,
-                     box_with_balls<dim>(dim == 2 ? 5 : 4,
+                     box_with_balls<dim>(dim == 2 ? 5 : 3,
                                          0,
                                          std::string("subsection Liquid 1\nset Shape = half space\n") +
                                            "set Centre = " + point<dim>(0, 0.9) +
@@ -183,4 +183,4 @@ start(const int, char **)
 }
 
 const Test test("dynamics/loads", start);
-} // namespace tests::loads_test
+} // namespace tests::dynamics_loads

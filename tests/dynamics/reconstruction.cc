@@ -10,7 +10,7 @@
 
 #include <iomanip>
 
-namespace tests::reconstruction_test
+namespace tests::dynamics_reconstruction
 {
 namespace
 {
@@ -36,19 +36,16 @@ namespace
 
   template <int dim>
   void
-  check(const MPI_Comm &comm, const std::string &method, const unsigned int level)
+  check(Body<dim> &body, const typename Reconstruction<dim>::Method method)
   {
-    Body<dim> body(comm,
-                   graded_mesh(level) + "subsection Liquid 1\nset Radius = 0.3\nset Centre = " +
-                     (dim == 2 ? "0.503, 0.491" : "0.503, 0.491, 0.512") +
-                     "\nend\nsubsection Advection\nset Reconstruction = " + method + "\nend\n" +
-                     tolerance("1e-12"));
-    const Mesh<dim> &mesh = *body.state.mesh;
-    out() << dim << "D, level " << level << ", " << method << ":" << std::setprecision(3);
+    const Mesh<dim>           &mesh = *body.state.mesh;
+    const MPI_Comm            &comm = mesh.communicator();
+    const SurfaceGeometry<dim> surface(body.state.mesh, body.state.phi);
     for (const auto &field : {&rigid<dim>, &smooth<dim>})
       {
         body.set_velocity(field);
-        Reconstruction<dim>(body.prm.dynamics.reconstruction).advance(body.state, body.fit, 0);
+        body.state.v = NodeVector<dim>(mesh.nodes);
+        Reconstruction<dim>({method}).advance(body.state, body.fit, surface, 0);
         double error = 0, size = 0, worst = 0;
         for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
           if (body.domain.is_active_node[node])
@@ -74,9 +71,21 @@ namespace
   void
   check_all(const MPI_Comm &comm, const std::vector<unsigned int> &levels)
   {
-    for (const char *method : {"face fitted", "least squares", "two step"})
-      for (const unsigned int level : levels)
-        check<dim>(comm, method, level);
+    using Method = typename Reconstruction<dim>::Method;
+    for (const unsigned int level : levels)
+      {
+        Body<dim> body(comm,
+                       graded_mesh(level) + "subsection Liquid 1\nset Radius = 0.3\nset Centre = " +
+                         (dim == 2 ? "0.503, 0.491" : "0.503, 0.491, 0.512") + "\nend\n" +
+                         tolerance("1e-12"));
+        for (const auto &[name, method] : {std::make_pair("face fitted", Method::face_fitted),
+                                           std::make_pair("least squares", Method::least_squares),
+                                           std::make_pair("two step", Method::two_step)})
+          {
+            out() << dim << "D, level " << level << ", " << name << ":" << std::setprecision(3);
+            check(body, method);
+          }
+      }
   }
 } // namespace
 
@@ -98,4 +107,4 @@ start(const int argc, char **argv)
 }
 
 const Test test("dynamics/reconstruction", start);
-} // namespace tests::reconstruction_test
+} // namespace tests::dynamics_reconstruction

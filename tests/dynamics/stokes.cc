@@ -10,7 +10,7 @@
 #include "../tests.h"
 #include "../run_scene.h"
 
-namespace tests::stokes_test
+namespace tests::dynamics_stokes
 {
 namespace
 {
@@ -44,7 +44,7 @@ namespace
   {
     const auto rows = run_scene<dim>(
       comm,
-      steps(0.01, 2) + mesh(4) +
+      steps(0.01, 2) + mesh(dim == 2 ? 4 : 3) +
         "subsection Material\nset Density = 1000\nset Viscosity = 1000\nend\n"
         "subsection Gravity\nset Acceleration = " +
         in_space<dim>("0; 0", "; 0") +
@@ -78,7 +78,7 @@ namespace
   std::string
   pool()
   {
-    return steps(0.02, 3) + mesh(4) +
+    return steps(0.02, 3) + mesh(dim == 2 ? 4 : 3) +
            "subsection Domain\nset Wall condition = default: free slip; bottom: no slip\nend\n"
            "subsection Material\nset Density = 2\nset Viscosity = if(x < 0.5, 1, 100)\nend\n"
            "subsection Gravity\nset Acceleration = " +
@@ -182,4 +182,4 @@ start(const int, char **)
 }
 
 const Test test("dynamics/stokes", start);
-} // namespace tests::stokes_test
+} // namespace tests::dynamics_stokes

@@ -11,7 +11,7 @@
 
 #include "../tests.h"
 
-namespace tests::marching_test
+namespace tests::geometry_marching
 {
 using namespace treacle;
 
@@ -124,4 +124,4 @@ start(const int, char **)
 }
 
 const Test test("geometry/marching", start);
-} // namespace tests::marching_test
+} // namespace tests::geometry_marching

@@ -9,7 +9,7 @@
 
 #include "../tests.h"
 
-namespace tests::motion_test
+namespace tests::geometry_motion
 {
 using namespace treacle;
 
@@ -125,4 +125,4 @@ start(const int, char **)
 }
 
 const Test test("geometry/motion", start);
-} // namespace tests::motion_test
+} // namespace tests::geometry_motion

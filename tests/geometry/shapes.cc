@@ -12,7 +12,7 @@
 
 #include "../tests.h"
 
-namespace tests::shapes_test
+namespace tests::geometry_shapes
 {
 using namespace treacle;
 
@@ -202,4 +202,4 @@ start(const int, char **)
 }
 
 const Test test("geometry/shapes", start);
-} // namespace tests::shapes_test
+} // namespace tests::geometry_shapes

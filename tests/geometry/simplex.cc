@@ -10,7 +10,7 @@
 
 #include "../tests.h"
 
-namespace tests::simplex_test
+namespace tests::geometry_simplex
 {
 using namespace treacle;
 
@@ -278,4 +278,4 @@ start(const int, char **)
 }
 
 const Test test("geometry/simplex", start);
-} // namespace tests::simplex_test
+} // namespace tests::geometry_simplex

@@ -14,7 +14,7 @@
 #include "../tests.h"
 #include "ball.h"
 
-namespace tests::checkpoint_test
+namespace tests::io_checkpoint
 {
 using namespace treacle;
 
@@ -261,4 +261,4 @@ start(const int, char **)
 }
 
 const Test test("io/checkpoint", start);
-} // namespace tests::checkpoint_test
+} // namespace tests::io_checkpoint

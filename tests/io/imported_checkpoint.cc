@@ -10,7 +10,7 @@
 #include "../mesh_files.h"
 #include "../tests.h"
 
-namespace tests::imported_checkpoint_test
+namespace tests::io_imported_checkpoint
 {
 using namespace treacle;
 
@@ -113,4 +113,4 @@ start(const int, char **)
 }
 
 const Test test("io/imported_checkpoint", start);
-} // namespace tests::imported_checkpoint_test
+} // namespace tests::io_imported_checkpoint

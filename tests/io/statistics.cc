@@ -12,7 +12,7 @@
 #include "../tests.h"
 #include "ball.h"
 
-namespace tests::statistics_test
+namespace tests::io_statistics
 {
 using namespace treacle;
 
@@ -120,4 +120,4 @@ start(const int, char **)
 }
 
 const Test test("io/statistics", start);
-} // namespace tests::statistics_test
+} // namespace tests::io_statistics

@@ -15,7 +15,7 @@
 #include "../tests.h"
 #include "ball.h"
 
-namespace tests::surface_writer_test
+namespace tests::io_surface_writer
 {
 using namespace treacle;
 
@@ -171,7 +171,7 @@ check_cut(const MPI_Comm &comm, const double offset, const bool is_tilted)
   parameters.solids.resize(1);
   typename Shape<dim>::Parameters &solid = parameters.solids[0].shape;
 
-  solid.shape  = "half space";
+  solid.kind   = ShapeKind::half_space;
   solid.normal = normal;
   solid.centre = diagonal_point<dim>(0.5) - offset * normal;
   const Scene<dim> scene(parameters);
@@ -238,4 +238,4 @@ start(const int, char **)
 }
 
 const Test test("io/surface_writer", start);
-} // namespace tests::surface_writer_test
+} // namespace tests::io_surface_writer

@@ -10,7 +10,7 @@
 #include "../tests.h"
 #include "../mesh_files.h"
 
-namespace tests::imported_test
+namespace tests::mesh_imported
 {
 using namespace treacle;
 
@@ -126,4 +126,4 @@ start(const int, char **)
 }
 
 const Test test("mesh/imported", start);
-} // namespace tests::imported_test
+} // namespace tests::mesh_imported

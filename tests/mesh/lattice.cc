@@ -13,7 +13,7 @@
 
 #include <random>
 
-namespace tests::lattice_test
+namespace tests::mesh_lattice
 {
 using namespace treacle;
 
@@ -137,4 +137,4 @@ start(const int argc, char **argv)
 }
 
 const Test test("mesh/lattice", start);
-} // namespace tests::lattice_test
+} // namespace tests::mesh_lattice

@@ -11,7 +11,7 @@
 
 #include <random>
 
-namespace tests::tracer_test
+namespace tests::mesh_tracer
 {
 using namespace treacle;
 
@@ -144,4 +144,4 @@ start(const int, char **)
 }
 
 const Test test("mesh/tracer", start);
-} // namespace tests::tracer_test
+} // namespace tests::mesh_tracer

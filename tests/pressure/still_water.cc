@@ -8,7 +8,7 @@
 #include "../tests.h"
 #include "../run_scene.h"
 
-namespace tests::still_water_test
+namespace tests::pressure_still_water
 {
 template <int dim>
 void
@@ -70,4 +70,4 @@ start(const int argc, char **argv)
 }
 
 const Test test("pressure/still_water", start);
-} // namespace tests::still_water_test
+} // namespace tests::pressure_still_water

@@ -9,7 +9,7 @@
 
 #include "../tests.h"
 
-namespace tests::parameter_file_test
+namespace tests::scene_parameter_file
 {
 using namespace treacle;
 
@@ -102,4 +102,4 @@ start(const int, char **)
 }
 
 const Test test("scene/parameter_file", start);
-} // namespace tests::parameter_file_test
+} // namespace tests::scene_parameter_file

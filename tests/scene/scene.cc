@@ -8,7 +8,7 @@
 
 #include "../tests.h"
 
-namespace tests::scene_test
+namespace tests::scene_scene
 {
 using namespace treacle;
 
@@ -148,4 +148,4 @@ start(const int, char **)
 }
 
 const Test test("scene/scene", start);
-} // namespace tests::scene_test
+} // namespace tests::scene_scene

@@ -7,7 +7,7 @@
 #include "../run_scene.h"
 #include "../tests.h"
 
-namespace tests::figures_test
+namespace tests::scenes_figures
 {
 template <int dim>
 void
@@ -52,4 +52,4 @@ start(const int, char **)
 }
 
 const Test test("scenes/figures", start);
-} // namespace tests::figures_test
+} // namespace tests::scenes_figures

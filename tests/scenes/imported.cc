@@ -10,7 +10,7 @@
 #include "../tests.h"
 #include "../body.h"
 
-namespace tests::imported_test
+namespace tests::scenes_imported
 {
 template <int dim>
 std::string
@@ -109,4 +109,4 @@ start(const int argc, char **argv)
 }
 
 const Test test("scenes/imported", start);
-} // namespace tests::imported_test
+} // namespace tests::scenes_imported

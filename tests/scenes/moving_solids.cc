@@ -9,7 +9,7 @@
 #include "../tests.h"
 #include "../run_scene.h"
 
-namespace tests::moving_solids_test
+namespace tests::scenes_moving_solids
 {
 double
 relative_error(const MPI_Comm &comm, const unsigned int level, const std::string &motion)
@@ -53,4 +53,4 @@ start(const int argc, char **argv)
 }
 
 const Test test("scenes/moving_solids", start);
-} // namespace tests::moving_solids_test
+} // namespace tests::scenes_moving_solids

@@ -7,7 +7,7 @@
 #include "../run_scene.h"
 #include "../tests.h"
 
-namespace tests::switches_test
+namespace tests::scenes_switches
 {
 namespace
 {
@@ -91,4 +91,4 @@ start(const int, char **)
 }
 
 const Test test("scenes/switches", start);
-} // namespace tests::switches_test
+} // namespace tests::scenes_switches

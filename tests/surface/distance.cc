@@ -11,7 +11,7 @@
 
 #include "../tests.h"
 
-namespace tests::distance_test
+namespace tests::surface_distance
 {
 using namespace treacle;
 
@@ -114,4 +114,4 @@ start(const int, char **)
 }
 
 const Test test("surface/distance", start);
-} // namespace tests::distance_test
+} // namespace tests::surface_distance

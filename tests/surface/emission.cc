@@ -15,7 +15,7 @@
 #include <treacle/transport/advection.h>
 #include <treacle/transport/remesh.h>
 
-namespace tests::emission_test
+namespace tests::surface_emission
 {
 std::string
 mesh_section(const unsigned int level, const unsigned int interior_level = 3)
@@ -162,4 +162,4 @@ start(const int argc, char **argv)
 }
 
 const Test test("surface/emission", start);
-} // namespace tests::emission_test
+} // namespace tests::surface_emission

@@ -14,7 +14,7 @@
 #include <treacle/transport/advection.h>
 #include <treacle/transport/remesh.h>
 
-namespace tests::markers_test
+namespace tests::surface_markers
 {
 /// A body, and a velocity that brings it back after a period.
 template <int dim>
@@ -198,4 +198,4 @@ start(const int argc, char **argv)
 }
 
 const Test test("surface/markers", start);
-} // namespace tests::markers_test
+} // namespace tests::surface_markers

@@ -16,7 +16,7 @@
 
 #include <numeric>
 
-namespace tests::advection_test
+namespace tests::transport_advection
 {
 template <int dim>
 std::shared_ptr<const Mesh<dim>>
@@ -202,4 +202,4 @@ start(const int argc, char **argv)
 }
 
 const Test test("transport/advection", start);
-} // namespace tests::advection_test
+} // namespace tests::transport_advection

@@ -11,7 +11,7 @@
 
 #include <treacle/viscosity/auxiliary_space.h>
 
-namespace tests::face_coupled_test
+namespace tests::viscosity_face_coupled
 {
 namespace
 {
@@ -79,7 +79,7 @@ namespace
     for (LocalIndex c = 0; c < domain.liquid_volume.size(); ++c)
       weight.push_back(30 * domain.liquid_volume[c]);
     const FaceCoupled<dim>         A(body.fit.system, stiffness);
-    const LinearSolver::Parameters prm{"amg", 1e-8, 1000};
+    const LinearSolver::Parameters prm{LinearSolver::Preconditioner::amg, 1e-8, 1000};
     const AuxiliarySpace<dim>      space(A, stiffness, prm);
 
     treacle::Vector    p = space.zero(), q(p), Bp(p), Bq(p);
@@ -176,4 +176,4 @@ start(const int, char **)
 }
 
 const Test test("viscosity/face_coupled", start);
-} // namespace tests::face_coupled_test
+} // namespace tests::viscosity_face_coupled

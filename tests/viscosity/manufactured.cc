@@ -12,7 +12,7 @@
 
 #include <iomanip>
 
-namespace tests::manufactured_test
+namespace tests::viscosity_manufactured
 {
 namespace
 {
@@ -246,4 +246,4 @@ start(const int argc, char **argv)
 }
 
 const Test test("viscosity/manufactured", start);
-} // namespace tests::manufactured_test
+} // namespace tests::viscosity_manufactured

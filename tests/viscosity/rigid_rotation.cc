@@ -12,7 +12,7 @@
 
 #include <iomanip>
 
-namespace tests::rigid_rotation_test
+namespace tests::viscosity_rigid_rotation
 {
 namespace
 {
@@ -72,4 +72,4 @@ start(const int argc, char **argv)
 }
 
 const Test test("viscosity/rigid_rotation", start);
-} // namespace tests::rigid_rotation_test
+} // namespace tests::viscosity_rigid_rotation

@@ -11,7 +11,7 @@
 
 #include <iomanip>
 
-namespace tests::spin_down_test
+namespace tests::viscosity_spin_down
 {
 namespace
 {
@@ -89,4 +89,4 @@ start(const int argc, char **argv)
 }
 
 const Test test("viscosity/spin_down", start);
-} // namespace tests::spin_down_test
+} // namespace tests::viscosity_spin_down

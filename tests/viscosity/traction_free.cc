@@ -10,7 +10,7 @@
 
 #include <iomanip>
 
-namespace tests::traction_free_test
+namespace tests::viscosity_traction_free
 {
 namespace
 {
@@ -103,4 +103,4 @@ start(const int argc, char **argv)
 }
 
 const Test test("viscosity/traction_free", start);
-} // namespace tests::traction_free_test
+} // namespace tests::viscosity_traction_free
