@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 
 GOOD = {
     "Dimension": "2", "End time": "0.02", "Maximum time step": "0.01",
@@ -176,29 +177,35 @@ def command(program, ranks, changes):
     return line
 
 
+def failures_of(program, ranks, name, changes, message):
+    with tempfile.TemporaryDirectory() as directory:
+        path = pathlib.Path(directory)
+        (path / "empty.prm").write_text("")
+        (path / "open.off").write_text(
+            "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n")
+        write_meshes(path)
+        run = subprocess.run(command(program, ranks, changes), cwd=path,
+                             capture_output=True, text=True, timeout=300)
+        errors = [l for l in run.stderr.splitlines() if l.startswith("treacle: error: ")]
+        problem = None
+        if run.returncode != 1:
+            problem = f"exit code {run.returncode}"
+        elif len(errors) != 1:
+            problem = f"{len(errors)} messages"
+        elif not re.search(message, run.stderr, re.S):
+            problem = "another message"
+        elif any(p.name.endswith((".new", ".tmp", ".part")) for p in path.rglob("*")):
+            problem = "half-written files"
+        if problem:
+            yield f"{name} on {ranks} ranks: {problem}\n{run.stderr}"
+
+
 def failures(program):
-    for ranks in (1, 2):
-        for name, changes, message in CASES:
-            with tempfile.TemporaryDirectory() as directory:
-                path = pathlib.Path(directory)
-                (path / "empty.prm").write_text("")
-                (path / "open.off").write_text(
-                    "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n")
-                write_meshes(path)
-                run = subprocess.run(command(program, ranks, changes), cwd=path,
-                                     capture_output=True, text=True, timeout=300)
-                errors = [l for l in run.stderr.splitlines() if l.startswith("treacle: error: ")]
-                problem = None
-                if run.returncode != 1:
-                    problem = f"exit code {run.returncode}"
-                elif len(errors) != 1:
-                    problem = f"{len(errors)} messages"
-                elif not re.search(message, run.stderr, re.S):
-                    problem = "another message"
-                elif any(p.name.endswith((".new", ".tmp", ".part")) for p in path.rglob("*")):
-                    problem = "half-written files"
-                if problem:
-                    yield f"{name} on {ranks} ranks: {problem}\n{run.stderr}"
+    """Of all cases; a process waits most of its time, so several run at once."""
+    jobs = [(program, ranks, *case) for ranks in (1, 2) for case in CASES]
+    with ThreadPoolExecutor(4) as pool:
+        for found in pool.map(lambda job: list(failures_of(*job)), jobs):
+            yield from found
 
 
 def main():
