@@ -9,26 +9,15 @@
 #include <treacle/transport/surface_velocity.h>
 #include <treacle/transport/time_step.h>
 
-#include <numeric>
-
 namespace treacle
 {
   namespace
   {
     template <int dim>
     std::vector<Point<dim>>
-    positions_of_owned_nodes(const Mesh<dim> &mesh)
-    {
-      return {mesh.node_position.begin(), mesh.node_position.begin() + mesh.n_owned_nodes()};
-    }
-
-    template <int dim>
-    std::vector<LocalIndex>
     owned_nodes(const Mesh<dim> &mesh)
     {
-      std::vector<LocalIndex> nodes(mesh.n_owned_nodes());
-      std::iota(nodes.begin(), nodes.end(), 0);
-      return nodes;
+      return {mesh.node_position.begin(), mesh.node_position.begin() + mesh.n_owned_nodes()};
     }
 
     /// a v + b w
@@ -55,22 +44,6 @@ namespace treacle
         difference.before == 0 ? 0. : 0.5 * difference.dt / old.before->dt;
       return combined(1 + part, old.v, -part, part == 0 ? old.v : *old.before->v);
     }
-
-    /// Largest length at a node (m/s). Collective.
-    template <int dim>
-    double
-    largest(const Mesh<dim> &mesh, const NodeVector<dim> &v)
-    {
-      double result = 0;
-      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-        result = std::max(result, v.value(node).norm());
-      return Utilities::MPI::max(result, mesh.communicator());
-    }
-
-    /// Leaves from the surface beyond which nothing asks for more of phi than its sign before
-    /// it is made a distance again, and in which faces may come to carry liquid when markers
-    /// correct it.
-    constexpr double n_near = 4;
 
     /// The faces that may carry liquid, for a node of them is closer to it than @p reach.
     template <int dim>
@@ -197,7 +170,7 @@ namespace treacle
         std::vector<NodeField<dim>> fields;
         for (const Vector &component : old.v.component)
           fields.push_back({&component});
-        const std::vector<double> v = Tracer<dim>(*old.mesh).evaluate(positions_of_owned_nodes(mesh), fields);
+        const std::vector<double> v = Tracer<dim>(*old.mesh).evaluate(owned_nodes(mesh), fields);
         for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
           for (unsigned int d = 0; d < dim; ++d)
             before.v->component[d].local_element(node) = v[dim * node + d];
@@ -207,38 +180,14 @@ namespace treacle
   }
 
   template <int dim>
-  std::vector<LocalIndex>
-  Advection<dim>::nodes_near_surface(State<dim> &state) const
-  {
-    const Mesh<dim> &mesh = *state.mesh;
-    if (state.mesh == old.mesh)
-      std::copy(old.phi.begin(), old.phi.begin() + mesh.n_owned_nodes(), state.phi.begin());
-    else
-      {
-        const auto values = Tracer<dim>(*old.mesh).evaluate(positions_of_owned_nodes(mesh), {{&old.phi}});
-        std::copy(values.begin(), values.end(), state.phi.begin());
-      }
-    const double near = dt * largest(*old.mesh, surface_velocity) + n_near * old.mesh->surface_size();
-    std::vector<LocalIndex> nodes;
-    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      if (std::abs(state.phi.local_element(node)) < near)
-        nodes.push_back(node);
-    return nodes;
-  }
-
-  template <int dim>
   void
   Advection<dim>::advance_nodes(State<dim> &state, const double reach) const
   {
-    const Mesh<dim> &mesh = *state.mesh;
-    const auto nodes      = old.material ? owned_nodes(mesh) : nodes_near_surface(state);
-    std::vector<Point<dim>> x;
-    for (const LocalIndex node : nodes)
-      x.push_back(mesh.node_position[node]);
-    const auto from   = Tracer<dim>(*old.mesh).trace(x, surface_velocity, -dt);
-    const auto values = surface.level_set.values(from);
-    for (unsigned int i = 0; i < nodes.size(); ++i)
-      state.phi.local_element(nodes[i]) = values[i];
+    const Mesh<dim>              &mesh = *state.mesh;
+    const std::vector<Point<dim>> from =
+      Tracer<dim>(*old.mesh).trace(owned_nodes(mesh), surface_velocity, -dt);
+    const std::vector<double> values = surface.level_set.values(from);
+    std::copy(values.begin(), values.end(), state.phi.begin());
     state.phi.update_ghost_values();
     if (!old.material)
       return;
@@ -258,8 +207,7 @@ namespace treacle
   Advection<dim>::advance_faces(State<dim> &state, const double reach) const
   {
     const Mesh<dim>              &mesh  = *state.mesh;
-    const std::vector<LocalIndex> faces =
-      faces_within(state, std::min(reach, n_near * mesh.surface_size()));
+    const std::vector<LocalIndex> faces = faces_within(state, reach);
     std::vector<Point<dim>>       x;
     for (const LocalIndex f : faces)
       x.push_back(mesh.face_centre[f]);

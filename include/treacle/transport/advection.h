@@ -72,10 +72,6 @@ namespace treacle
             const double                       dt,
             const double                       reach) const;
 
-    /// The nodes whose phi is to be read where they come from; state.phi is set for the others.
-    std::vector<LocalIndex>
-    nodes_near_surface(State<dim> &state) const;
-
     void
     advance_nodes(State<dim> &state, const double reach) const;
 
