@@ -157,7 +157,7 @@ check_steps(const MPI_Comm &comm)
     out() << std::endl;
   };
   const std::string r = "sqrt((x-0.5)^2+(y-0.5)^2)";
-  for (const std::string gravity : {std::string("0; -9.81"),
+  for (const std::string &gravity : {std::string("0; -9.81"),
                                     "-9.81*(x-0.5)/" + r + "; -9.81*(y-0.5)/" + r,
                                     std::string("-40*(x-0.5); -40*(y-0.5)"),
                                     std::string("if(x > 0.6, 1/0, 0); 0")})
