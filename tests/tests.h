@@ -7,6 +7,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -59,12 +60,14 @@ namespace tests
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 
-  /// Run on 1, 2 and 3 of the 3 ranks of this program in turn.
+  /// Run on 1, 2 and 3 of the 3 ranks of this program in turn, or on the number of them alone
+  /// that the environment variable TREACLE_TEST_RANKS names.
   inline void
   on_1_2_3_ranks(const std::function<void(const MPI_Comm &)> &body)
   {
-    const int rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-    for (int n = 1; n <= 3; ++n)
+    const int   rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+    const char *only = std::getenv("TREACLE_TEST_RANKS");
+    for (int n = only ? std::atoi(only) : 1; n <= (only ? std::atoi(only) : 3); ++n)
       {
         MPI_Comm comm;
         MPI_Comm_split(MPI_COMM_WORLD, rank < n ? 0 : 1, rank, &comm);
