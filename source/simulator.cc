@@ -136,13 +136,12 @@ namespace treacle
   {
     const auto mesh =
       imported ? imported : initial_mesh<dim>(comm, with_box(prm.mesh, scene), scene);
-    reach     = time_step.reach(*mesh);
     check_bodies(*mesh, scene);
     liquid.mesh_data  = std::make_shared<const MeshData<dim>>(*mesh, scene);
     liquid.state      = std::make_unique<State<dim>>(mesh);
     State<dim> &state = *liquid.state;
     set_initial_level_set(state, scene);
-    redistance(state, reach);
+    redistance(state, time_step.largest_reach(*mesh));
     if (scene.has_advected_material())
       {
         set_initial_material(state, scene);
@@ -153,7 +152,8 @@ namespace treacle
     liquid.find(prm.liquid_domain);
     volume = liquid.domain->total_volume();
     set_initial_velocity(state, *liquid.domain);
-    dynamics.reconstruct(liquid, reach);
+    dynamics.reconstruct(liquid);
+    movement.extend_velocity(liquid);
 
     // nothing is written before all that can be wrong with the scene was seen
     open_output(false);
@@ -192,7 +192,6 @@ namespace treacle
         (!time_step.is_second_order() || state.before->v.has_value() != prm.steps.advection))
       state.before.reset();
     volume           = progress.scalars.at("volume");
-    reach            = time_step.reach(*state.mesh);
     liquid.mesh_data = std::make_shared<const MeshData<dim>>(*state.mesh, scene);
     liquid.surface   = std::make_unique<const SurfaceGeometry<dim>>(state.mesh, state.phi);
     liquid.find(prm.liquid_domain);
@@ -237,8 +236,8 @@ namespace treacle
     scene.check_solids(liquid.state->time + dt);
     transport(difference);
     timing.measured("liquid domain", [&] { liquid.find(prm.liquid_domain); });
-    info.dynamics  = dynamics.advance(liquid, difference, reach, timing);
-    maximum_speed(*liquid.state, *liquid.domain); // must be finite
+    info.dynamics = dynamics.advance(liquid, difference, timing);
+    timing.measured("extrapolation", [&] { movement.extend_velocity(liquid); });
     info.wall_time = wall.wall_time();
     report();
   }

@@ -107,7 +107,6 @@ namespace treacle
     Liquid<dim>   liquid;
     unsigned int  frame  = 0; ///< the last one written
     double        volume = 0; ///< that the liquid should have (m^dim)
-    double        reach  = 0; ///< of velocity and distance from the surface (m)
     StepInfo<dim> info;
   };
 } // namespace treacle

@@ -160,14 +160,13 @@ namespace treacle
   typename Dynamics<dim>::Info
   Dynamics<dim>::advance(Liquid<dim>              &liquid,
                          const BackwardDifference &difference,
-                         const double              reach,
                          Timing                   &timing) const
   {
     State<dim> &state = *liquid.state;
     Stage       stage(*this, *liquid.domain, state.time, difference.step, timing);
     stage.advance(state);
     const auto section = timing.section("reconstruction");
-    reconstruction.advance(state, *stage.fit, *liquid.surface, reach);
+    reconstruction.advance(state, *stage.fit);
     return stage.info;
   }
 

@@ -4,7 +4,6 @@
 #include <treacle/base/choice.h>
 #include <treacle/dynamics/reconstruction.h>
 #include <treacle/fields/face_node.h>
-#include <treacle/surface/extrapolation.h>
 #include <treacle/viscosity/least_squares.h>
 
 namespace treacle
@@ -52,10 +51,7 @@ namespace treacle
 
   template <int dim>
   void
-  Reconstruction<dim>::advance(State<dim>                 &state,
-                               const FaceFit<dim>         &fit,
-                               const SurfaceGeometry<dim> &surface,
-                               const double                reach) const
+  Reconstruction<dim>::advance(State<dim> &state, const FaceFit<dim> &fit) const
   {
     switch (prm.method)
       {
@@ -68,7 +64,6 @@ namespace treacle
         case Method::least_squares:
           LeastSquares<dim>(fit.domain).apply(state.u, state.v);
       }
-    extrapolate(state, fit.domain, surface, reach);
   }
 
   template class Reconstruction<2>;

@@ -56,14 +56,17 @@ namespace treacle
   template <int dim>
   std::vector<double>
   Tracer<dim>::evaluate(const std::vector<Point<dim>>     &x,
-                        const std::vector<NodeField<dim>> &fields) const
+                        const std::vector<NodeField<dim>> &fields,
+                        Guesses                           &guesses) const
   {
     const unsigned int        n = fields.size();
     std::vector<double>       values(x.size() * n);
     std::vector<unsigned int> elsewhere;
+    guesses.resize(x.size(), invalid);
     for (unsigned int i = 0; i < x.size(); ++i)
       {
-        const Location<dim> location = locator.locate(x[i]);
+        const Location<dim> location = locator.locate(x[i], guesses[i]);
+        guesses[i]                   = location.cell;
         if (location.cell == invalid)
           elsewhere.push_back(i);
         else
@@ -101,7 +104,8 @@ namespace treacle
   std::vector<Point<dim>>
   Tracer<dim>::trace(const std::vector<Point<dim>> &x,
                      const NodeVector<dim>         &velocity,
-                     const double                   dt) const
+                     const double                   dt,
+                     Guesses                       &guesses) const
   {
     std::vector<NodeField<dim>> fields;
     for (const Vector &component : velocity.component)
@@ -113,9 +117,9 @@ namespace treacle
           y[i][d] += step * k[i * dim + d];
       return y;
     };
-    const std::vector<double> k1 = evaluate(x, fields);
-    const std::vector<double> k2 = evaluate(advanced(k1, 0.5 * dt), fields);
-    const std::vector<double> k3 = evaluate(advanced(k2, 0.75 * dt), fields);
+    const std::vector<double> k1 = evaluate(x, fields, guesses);
+    const std::vector<double> k2 = evaluate(advanced(k1, 0.5 * dt), fields, guesses);
+    const std::vector<double> k3 = evaluate(advanced(k2, 0.75 * dt), fields, guesses);
     std::vector<double>       k(k1.size());
     for (unsigned int i = 0; i < k.size(); ++i)
       k[i] = (2 * k1[i] + 3 * k2[i] + 4 * k3[i]) / 9;

@@ -15,7 +15,8 @@ namespace treacle
     std::vector<double>
     velocity_gradients(const Mesh<dim>               &mesh,
                        const NodeVector<dim>         &velocity,
-                       const std::vector<Point<dim>> &x)
+                       const std::vector<Point<dim>> &x,
+                       Guesses                       &guesses)
     {
       std::vector<NodeVector<dim>> gradients;
       gradients.reserve(dim); // a vector of them that grows would lose their ghosts
@@ -25,7 +26,7 @@ namespace treacle
       for (const NodeVector<dim> &gradient : gradients)
         for (const Vector &component : gradient.component)
           fields.push_back({&component});
-      return Tracer<dim>(mesh).evaluate(x, fields);
+      return Tracer<dim>(mesh).evaluate(x, fields, guesses);
     }
 
     /// dn/dt = -(grad u)^T n by the implicit midpoint rule; the length does not matter.
@@ -52,11 +53,12 @@ namespace treacle
     if (Utilities::MPI::max<unsigned int>(state.markers.size(), mesh.communicator()) == 0)
       return {};
     const std::vector<Point<dim>> from = positions(state.markers);
-    const std::vector<Point<dim>> to   = Tracer<dim>(mesh).trace(from, velocity, dt);
+    Guesses guesses;
+    const std::vector<Point<dim>> to = Tracer<dim>(mesh).trace(from, velocity, dt, guesses);
     std::vector<Point<dim>>       middle(from.size());
     for (unsigned int k = 0; k < from.size(); ++k)
       middle[k] = from[k] + 0.5 * (to[k] - from[k]);
-    const std::vector<double> gradients = velocity_gradients(mesh, velocity, middle);
+    const std::vector<double> gradients = velocity_gradients(mesh, velocity, middle, guesses);
     std::vector<Marker<dim>>  moved(from.size());
     for (unsigned int k = 0; k < from.size(); ++k)
       moved[k] = {to[k], turned(state.markers[k].normal, &gradients[k * dim * dim], dt)};

@@ -21,19 +21,19 @@ namespace treacle
 
   template <int dim>
   std::vector<double>
-  SmoothLevelSet<dim>::values(const std::vector<Point<dim>> &x) const
+  SmoothLevelSet<dim>::values(const std::vector<Point<dim>> &x, Guesses &guesses) const
   {
-    return Tracer<dim>(mesh).evaluate(x, {{&phi, &gradient, &smoothness}});
+    return Tracer<dim>(mesh).evaluate(x, {{&phi, &gradient, &smoothness}}, guesses);
   }
 
   template <int dim>
   std::vector<typename SmoothLevelSet<dim>::Sample>
-  SmoothLevelSet<dim>::samples(const std::vector<Point<dim>> &x) const
+  SmoothLevelSet<dim>::samples(const std::vector<Point<dim>> &x, Guesses &guesses) const
   {
     std::vector<NodeField<dim>> fields = {{&phi, &gradient, &smoothness}, {&smoothness}};
     for (const Vector &component : gradient.component)
       fields.push_back({&component});
-    const std::vector<double> numbers = Tracer<dim>(mesh).evaluate(x, fields);
+    const std::vector<double> numbers = Tracer<dim>(mesh).evaluate(x, fields, guesses);
     std::vector<Sample>       samples(x.size());
     for (unsigned int i = 0; i < x.size(); ++i)
       {

@@ -110,7 +110,9 @@ namespace treacle
   std::vector<double>
   Advection<dim>::level_set(const std::vector<Point<dim>> &x) const
   {
-    return surface.level_set.values(Tracer<dim>(*old.mesh).trace(x, surface_velocity, -dt));
+    Guesses guesses;
+    const auto from = Tracer<dim>(*old.mesh).trace(x, surface_velocity, -dt, guesses);
+    return surface.level_set.values(from, guesses);
   }
 
   template <int dim>
@@ -118,6 +120,7 @@ namespace treacle
   Advection<dim>::carried(const std::vector<const Vector *> &fields,
                           const NodeVector<dim>             &velocity,
                           const std::vector<Point<dim>>     &from,
+                          Guesses                           &guesses,
                           const double                       dt,
                           const double                       reach) const
   {
@@ -140,7 +143,7 @@ namespace treacle
         for (unsigned int k = 0; k < fields.size(); ++k)
           node_fields[k].correction = &correction[k];
       }
-    return Tracer<dim>(*old.mesh).evaluate(from, node_fields);
+    return Tracer<dim>(*old.mesh).evaluate(from, node_fields, guesses);
   }
 
   template <int dim>
@@ -183,16 +186,25 @@ namespace treacle
   void
   Advection<dim>::advance_nodes(State<dim> &state, const double reach) const
   {
-    const Mesh<dim>              &mesh = *state.mesh;
+    const Mesh<dim> &mesh = *state.mesh;
+    Guesses          guesses;
+    if (&mesh == old.mesh.get())
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        guesses.push_back(mesh.node_cells[mesh.node_cell_start[node]]);
     const std::vector<Point<dim>> from =
-      Tracer<dim>(*old.mesh).trace(owned_nodes(mesh), surface_velocity, -dt);
-    const std::vector<double> values = surface.level_set.values(from);
+      Tracer<dim>(*old.mesh).trace(owned_nodes(mesh), surface_velocity, -dt, guesses);
+    const std::vector<double> values = surface.level_set.values(from, guesses);
     std::copy(values.begin(), values.end(), state.phi.begin());
     state.phi.update_ghost_values();
     if (!old.material)
       return;
     const std::vector<double> material =
-      carried({&old.material->density, &old.material->viscosity}, surface_velocity, from, dt, reach);
+      carried({&old.material->density, &old.material->viscosity},
+              surface_velocity,
+              from,
+              guesses,
+              dt,
+              reach);
     state.material.emplace(mesh.nodes);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
@@ -209,8 +221,12 @@ namespace treacle
     const Mesh<dim>              &mesh  = *state.mesh;
     const std::vector<LocalIndex> faces = faces_within(state, reach);
     std::vector<Point<dim>>       x;
+    Guesses                       guesses;
     for (const LocalIndex f : faces)
       x.push_back(mesh.face_centre[f]);
+    if (&mesh == old.mesh.get())
+      for (const LocalIndex f : faces)
+        guesses.push_back(std::min(mesh.face_cells[f][0], mesh.face_cells[f][1]));
     const auto add = [&](const double                   weight,
                          const NodeVector<dim>         &v,
                          const std::vector<Point<dim>> &from,
@@ -218,19 +234,20 @@ namespace treacle
       std::vector<const Vector *> components;
       for (const Vector &component : v.component)
         components.push_back(&component);
-      const std::vector<double> values = carried(components, velocity, from, elapsed, reach);
+      const std::vector<double> values = carried(components, velocity, from, guesses, elapsed, reach);
       for (unsigned int i = 0; i < faces.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
           state.u.local_element(faces[i]) +=
             weight * mesh.face_normal[faces[i]][d] * values[dim * i + d];
     };
     const Tracer<dim>             tracer(*old.mesh);
-    const std::vector<Point<dim>> from = tracer.trace(x, velocity, -dt);
+    const std::vector<Point<dim>> from = tracer.trace(x, velocity, -dt, guesses);
     add(difference.now, old.v, from, dt);
     if (difference.before != 0)
       add(difference.before,
           *old.before->v,
-          tracer.trace(from, combined(0.5, old.v, 0.5, *old.before->v), -old.before->dt),
+          tracer.trace(
+            from, combined(0.5, old.v, 0.5, *old.before->v), -old.before->dt, guesses),
           dt + old.before->dt);
     state.u.update_ghost_values();
   }

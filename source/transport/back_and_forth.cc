@@ -9,6 +9,16 @@ namespace treacle
   namespace
   {
     template <int dim>
+    Guesses
+    cells_at(const Mesh<dim> &mesh, const std::vector<LocalIndex> &nodes)
+    {
+      Guesses guesses;
+      for (const LocalIndex node : nodes)
+        guesses.push_back(mesh.node_cells[mesh.node_cell_start[node]]);
+      return guesses;
+    }
+
+    template <int dim>
     std::vector<double>
     traced(const Mesh<dim>                   &mesh,
            const std::vector<const Vector *> &fields,
@@ -23,7 +33,9 @@ namespace treacle
       for (const Vector *field : fields)
         node_fields.push_back({field});
       const Tracer<dim> tracer(mesh);
-      return tracer.evaluate(tracer.trace(x, velocity, dt), node_fields);
+      auto              guesses = cells_at(mesh, nodes);
+      const auto        ends    = tracer.trace(x, velocity, dt, guesses);
+      return tracer.evaluate(ends, node_fields, guesses);
     }
   } // namespace
 

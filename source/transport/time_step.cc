@@ -82,10 +82,12 @@ namespace treacle
 
   template <int dim>
   double
-  TimeStep<dim>::reach(const Mesh<dim> &mesh) const
+  TimeStep<dim>::reach(const State<dim> &state, const LiquidDomain<dim> &domain) const
   {
-    // BDF2 asks for the velocity before of where the surface will be
-    return ((is_second_order() ? 2 : 1) * prm.cfl + 3 * (mesh.surface_size() / mesh.finest_size())) * mesh.finest_size();
+    const double v  = maximum_speed(state, domain);
+    const double g  = maximum_gravity(domain, state.time);
+    const double dt = std::min(prm.maximum, prm.frame_interval);
+    return reach_of(std::min(prm.cfl * domain.mesh.finest_size(), (v + g * dt) * dt), domain.mesh);
   }
 
   template <int dim>

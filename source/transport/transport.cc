@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/surface/emission.h>
+#include <treacle/surface/extrapolation.h>
 #include <treacle/surface/material_extension.h>
 #include <treacle/transport/remesh.h>
 #include <treacle/transport/transport.h>
@@ -15,7 +16,8 @@ namespace treacle
                               const double              volume,
                               Timing                   &timing) const
   {
-    const State<dim>    &old = *liquid.state;
+    const State<dim>    &old   = *liquid.state;
+    const double         reach = time_step.reach(old, *liquid.domain);
     const Advection<dim> advection(prm.advection, old, *liquid.domain, *liquid.surface, difference);
     const auto           markers = timing.measured("markers", [&] {
       return advection.move_markers();
@@ -25,7 +27,7 @@ namespace treacle
     });
     const bool           rebuilt = mesh != old.mesh;
     auto                 next    = timing.measured("advection", [&] {
-      return carry(old, advection, mesh);
+      return carry(old, advection, mesh, reach);
     });
 
     const auto section = timing.section("surface");
@@ -34,7 +36,7 @@ namespace treacle
     next->markers        = to_owners(*mesh, markers);
     const double emitted = emit(*next, *data, difference.dt);
     auto         surface =
-      tracking.advance(*next, *data, time_step.reach(*mesh), volume + emitted);
+      tracking.advance(*next, *data, reach, volume + emitted);
     if (next->material)
       extend_material(*next, *data);
     liquid = {std::move(data), std::move(next), std::move(surface), nullptr};
@@ -45,10 +47,10 @@ namespace treacle
   std::unique_ptr<State<dim>>
   Transport<dim>::carry(const State<dim>                       &old,
                         const Advection<dim>                   &advection,
-                        const std::shared_ptr<const Mesh<dim>> &mesh) const
+                        const std::shared_ptr<const Mesh<dim>> &mesh,
+                        const double                            reach) const
   {
-    auto next =
-      std::make_unique<State<dim>>(advection.advance(mesh, time_step.reach(*old.mesh)));
+    auto next = std::make_unique<State<dim>>(advection.advance(mesh, reach));
     if (remembers(old.time))
       next->before = advection.velocity_before(*mesh);
     if (mesh == old.mesh) // the first guess of the next solves
@@ -69,7 +71,8 @@ namespace treacle
     const auto           section = timing.section("advection");
     State<dim>          &old     = *liquid.state;
     const Advection<dim> advection(prm.advection, old, *liquid.domain, *liquid.surface, difference);
-    auto                 next = carry(old, advection, old.mesh);
+    auto                 next =
+      carry(old, advection, old.mesh, time_step.reach(old, *liquid.domain));
     next->phi                 = old.phi;
     next->markers             = std::move(old.markers);
     next->phi.update_ghost_values();
@@ -93,6 +96,15 @@ namespace treacle
       state.before = std::move(before);
     state.time += difference.dt;
     ++state.step;
+  }
+
+  template <int dim>
+  void
+  Transport<dim>::extend_velocity(Liquid<dim> &liquid) const
+  {
+    State<dim> &state = *liquid.state;
+    extrapolate(
+      state, *liquid.domain, *liquid.surface, time_step.reach(state, *liquid.domain));
   }
 
   template <int dim>

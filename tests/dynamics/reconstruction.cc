@@ -38,14 +38,13 @@ namespace
   void
   check(Body<dim> &body, const typename Reconstruction<dim>::Method method)
   {
-    const Mesh<dim>           &mesh = *body.state.mesh;
-    const MPI_Comm            &comm = mesh.communicator();
-    const SurfaceGeometry<dim> surface(body.state.mesh, body.state.phi);
+    const Mesh<dim> &mesh = *body.state.mesh;
+    const MPI_Comm  &comm = mesh.communicator();
     for (const auto &field : {&rigid<dim>, &smooth<dim>})
       {
         body.set_velocity(field);
         body.state.v = NodeVector<dim>(mesh.nodes);
-        Reconstruction<dim>({method}).advance(body.state, body.fit, surface, 0);
+        Reconstruction<dim>({method}).advance(body.state, body.fit);
         double error = 0, size = 0, worst = 0;
         for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
           if (body.domain.is_active_node[node])

@@ -56,20 +56,17 @@ namespace treacle
       std::vector<Load<dim>> loads; ///< on solids and walls, mean over the step
     };
 
-    /// Velocity and pressure of the state at its time, the end of the difference's step. The
-    /// velocity is known up to @p reach from the surface (m).
+    /// Velocity and pressure of the liquid at the state's time, the end of the difference's step.
     Info
     advance(Liquid<dim>              &liquid,
             const BackwardDifference &difference,
-            const double              reach,
             Timing                   &timing) const;
 
-    /// Node velocity from face velocity, up to @p reach from the surface (m).
+    /// Node velocity from face velocity.
     void
-    reconstruct(Liquid<dim> &liquid, const double reach) const
+    reconstruct(Liquid<dim> &liquid) const
     {
-      const FaceFit<dim> fit(prm.face_fit, *liquid.domain);
-      reconstruction.advance(*liquid.state, fit, *liquid.surface, reach);
+      reconstruction.advance(*liquid.state, FaceFit<dim>(prm.face_fit, *liquid.domain));
     }
 
   private:

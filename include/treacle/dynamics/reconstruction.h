@@ -4,7 +4,6 @@
 #ifndef treacle_dynamics_reconstruction_h
 #define treacle_dynamics_reconstruction_h
 
-#include <treacle/surface/surface_geometry.h>
 #include <treacle/viscosity/face_fit.h>
 
 namespace treacle
@@ -34,12 +33,9 @@ namespace treacle
       : prm(parameters)
     {}
 
-    /// Set state.v at active nodes, and within @p reach (m) of the surface in the air.
+    /// Set state.v at active nodes.
     void
-    advance(State<dim>                 &state,
-            const FaceFit<dim>         &fit,
-            const SurfaceGeometry<dim> &surface,
-            const double                reach) const;
+    advance(State<dim> &state, const FaceFit<dim> &fit) const;
 
   private:
     const Parameters prm;

@@ -41,6 +41,25 @@ namespace treacle
     virtual Location<dim>
     locate(const Point<dim> &x) const = 0;
 
+    /// The same, by a walk from cell to cell that begins at @p guess, which may be invalid.
+    Location<dim>
+    locate(const Point<dim> &x, const LocalIndex guess) const
+    {
+      constexpr unsigned int longest = 12;
+      LocalIndex             cell    = guess;
+      for (unsigned int k = 0; k < longest && cell < mesh.n_owned_cells(); ++k)
+        {
+          const Location<dim> location = in_cell(cell, x);
+          const auto          least =
+            std::min_element(location.lambda.begin(), location.lambda.end());
+          if (*least > -1e-12)
+            return location;
+          const auto &sides = mesh.face_cells[mesh.cell_faces[cell][least - location.lambda.begin()]];
+          cell              = sides[sides[0] == cell];
+        }
+      return locate(x);
+    }
+
     /// The cell of this rank, which is known to own the point.
     virtual Location<dim>
     locate_here(const Point<dim> &x) const = 0;

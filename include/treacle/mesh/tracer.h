@@ -8,6 +8,10 @@
 
 namespace treacle
 {
+  /// For each point the cell of this rank where it is looked for first, then that where it was
+  /// found; invalid where none is known. Empty: none are known.
+  using Guesses = std::vector<LocalIndex>;
+
   /// A node field, P1 in a cell. With nodal gradients g (1/m) and their smoothness s
   /// (1 where the field has one, 0 at kinks) it is evaluated as
   /// `sum lambda_i f_i + (sum lambda_i s_i) sum lambda_i g_i·(x - x_i)/2`, which is
@@ -38,14 +42,30 @@ namespace treacle
     /// of the mesh are moved to it.
     std::vector<double>
     evaluate(const std::vector<Point<dim>>     &x,
-             const std::vector<NodeField<dim>> &fields) const;
+             const std::vector<NodeField<dim>> &fields,
+             Guesses                           &guesses) const;
 
-    /// Where the paths through @p x lead in time @p dt (negative: where
-    /// they come from), with Ralston's Runge-Kutta method of order 3.
+    std::vector<double>
+    evaluate(const std::vector<Point<dim>> &x, const std::vector<NodeField<dim>> &fields) const
+    {
+      Guesses none;
+      return evaluate(x, fields, none);
+    }
+
+    /// Where the paths through @p x lead in time @p dt (negative: where they come from), with
+    /// Ralston's Runge-Kutta method of order 3. Guesses are for x, then for the ends.
     std::vector<Point<dim>>
-    trace(const std::vector<Point<dim>>  &x,
-          const NodeVector<dim>          &velocity,
-          const double                    dt) const;
+    trace(const std::vector<Point<dim>> &x,
+          const NodeVector<dim>         &velocity,
+          const double                   dt,
+          Guesses                       &guesses) const;
+
+    std::vector<Point<dim>>
+    trace(const std::vector<Point<dim>> &x, const NodeVector<dim> &velocity, const double dt) const
+    {
+      Guesses none;
+      return trace(x, velocity, dt, none);
+    }
 
   private:
     void

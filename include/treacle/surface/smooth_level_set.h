@@ -17,7 +17,7 @@ namespace treacle
     SmoothLevelSet(const Mesh<dim> &mesh, const Vector &phi);
 
     std::vector<double>
-    values(const std::vector<Point<dim>> &x) const;
+    values(const std::vector<Point<dim>> &x, Guesses &guesses) const;
 
     struct Sample
     {
@@ -27,7 +27,14 @@ namespace treacle
     };
 
     std::vector<Sample>
-    samples(const std::vector<Point<dim>> &x) const;
+    samples(const std::vector<Point<dim>> &x, Guesses &guesses) const;
+
+    std::vector<Sample>
+    samples(const std::vector<Point<dim>> &x) const
+    {
+      Guesses none;
+      return samples(x, none);
+    }
 
   private:
     const Mesh<dim> &mesh;

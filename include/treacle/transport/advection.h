@@ -6,6 +6,7 @@
 
 #include <treacle/fields/backward_difference.h>
 #include <treacle/fields/liquid_domain.h>
+#include <treacle/mesh/tracer.h>
 #include <treacle/surface/surface_geometry.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -69,6 +70,7 @@ namespace treacle
     carried(const std::vector<const Vector *> &fields,
             const NodeVector<dim>             &velocity,
             const std::vector<Point<dim>>     &from,
+            Guesses                           &guesses,
             const double                       dt,
             const double                       reach) const;
 

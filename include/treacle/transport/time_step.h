@@ -43,9 +43,17 @@ namespace treacle
     double
     next(const State<dim> &state, const LiquidDomain<dim> &domain, const unsigned int frame) const;
 
-    /// How far from the surface velocity and distance must be known for a step (m).
+    /// How far from the surface velocity and distance must be known for the step from
+    /// state.time (m). Throws like next(). Collective.
     double
-    reach(const Mesh<dim> &mesh) const;
+    reach(const State<dim> &state, const LiquidDomain<dim> &domain) const;
+
+    /// The same for any step.
+    double
+    largest_reach(const Mesh<dim> &mesh) const
+    {
+      return reach_of(prm.cfl * mesh.finest_size(), mesh);
+    }
 
     /// The velocity of the step before is part of the state then.
     bool
@@ -68,6 +76,14 @@ namespace treacle
     }
 
   private:
+    /// For a step in which the liquid moves by @p distance (m).
+    double
+    reach_of(const double distance, const Mesh<dim> &mesh) const
+    {
+      // BDF2 asks for the velocity before of where the surface will be
+      return (is_second_order() ? 2 : 1) * distance + 3 * mesh.surface_size();
+    }
+
     const Parameters prm;
   };
 

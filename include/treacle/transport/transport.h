@@ -59,7 +59,11 @@ namespace treacle
     void
     stay(State<dim> &state, const BackwardDifference &difference) const;
 
-    /// Material continued into the air as far as the liquid may go in a step.
+    /// Velocity continued into the air as far as the liquid may go in a step.
+    void
+    extend_velocity(Liquid<dim> &liquid) const;
+
+    /// The same of material.
     void
     extend_material(State<dim> &state, const MeshData<dim> &data) const;
 
@@ -68,7 +72,8 @@ namespace treacle
     std::unique_ptr<State<dim>>
     carry(const State<dim>                       &old,
           const Advection<dim>                   &advection,
-          const std::shared_ptr<const Mesh<dim>> &mesh) const;
+          const std::shared_ptr<const Mesh<dim>> &mesh,
+          const double                            reach) const;
 
     /// Is the velocity of now of use to the step after this one? Not before an emitter
     /// starts or stops.
