@@ -66,7 +66,7 @@ namespace treacle
       ML_set_random_seed(1 + Utilities::MPI::this_mpi_process(matrix.get_mpi_communicator()));
       list.set("prec type", "MGW"); // MGV: iterations grow with the level
       list.set("smoother: type", "Chebyshev");
-      list.set("smoother: sweeps", 2);
+      list.set("smoother: sweeps", 1);
       list.set("smoother: Chebyshev alpha", 10.);
       list.set("aggregation: type", "Uncoupled");
       list.set("aggregation: threshold", 1e-4);

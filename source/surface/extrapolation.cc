@@ -23,9 +23,10 @@ namespace treacle
       if (!domain.is_active_node[node])
         {
           state.v.set(node, Tensor<1, dim>());
-          if (std::abs(state.phi.local_element(node)) >= reach)
+          const double distance = std::abs(state.phi.local_element(node));
+          if (distance >= reach)
             continue;
-          const auto nearest = facets.nearest(mesh.node_position[node]);
+          const auto nearest = facets.nearest(mesh.node_position[node], distance);
           if (!std::isfinite(nearest.distance))
             continue;
           nodes.push_back(node);

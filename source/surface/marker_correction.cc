@@ -2,7 +2,6 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/surface/marker_correction.h>
-#include <treacle/surface/near_markers.h>
 #include <treacle/surface/smooth_level_set.h>
 
 namespace treacle
@@ -10,7 +9,14 @@ namespace treacle
   namespace
   {
     template <int dim>
-    using Near = std::vector<const NearMarker<dim> *>;
+    using Near = ArrayView<const NearMarker<dim> *const>;
+
+    template <int dim>
+    Near<dim>
+    view(const std::vector<const NearMarker<dim> *> &markers)
+    {
+      return Near<dim>(markers.data(), markers.size());
+    }
 
     /// How far a marker is felt, and the thickness below which films are left to phi, in
     /// finest leaves.
@@ -22,8 +28,9 @@ namespace treacle
     double
     weight(const double squared_distance, const double h)
     {
-      const double r = std::sqrt(squared_distance) / (reach * h);
-      return std::pow(1 - r, 4) * (4 * r + 1);
+      const double r      = std::sqrt(squared_distance) / (reach * h);
+      const double square = (1 - r) * (1 - r);
+      return square * square * (4 * r + 1);
     }
 
     /// A sheet of markers that face one way, as seen from a node.
@@ -37,7 +44,7 @@ namespace treacle
     /// exact for a sphere.
     template <int dim>
     Sheet
-    sheet(const Point<dim> &x, const Near<dim> &markers, const double h)
+    sheet(const Point<dim> &x, const Near<dim> markers, const double h)
     {
       double         sum = 0, distance = 0;
       Tensor<1, dim> mean;
@@ -53,7 +60,7 @@ namespace treacle
           sum += w;
           distance += w * 0.5 * (r * (m->marker.normal + mean));
         }
-      const Marker<dim>   &foot  = nearest(x, markers);
+      const Marker<dim>   &foot  = nearest<dim>(x, markers);
       const Tensor<1, dim> r     = x - foot.position;
       const double         along = std::pow(0.4 * reach * h, 2); // more than between markers
       return {distance / sum, r.norm_square() - std::pow(r * foot.normal, 2) > along};
@@ -65,16 +72,16 @@ namespace treacle
     double
     distance_from_sheets(const Point<dim> &x,
                          const double      old,
-                         const Near<dim>  &same,
-                         const Near<dim>  &opposed,
+                         const Near<dim>   same,
+                         const Near<dim>   opposed,
                          const double      h)
     {
-      const Sheet first = sheet(x, same, h);
+      const Sheet first = sheet<dim>(x, same, h);
       if (first.is_beside)
         return old;
-      if (opposed.empty())
+      if (opposed.size() == 0)
         return first.distance;
-      const Sheet second = sheet(x, opposed, h);
+      const Sheet second = sheet<dim>(x, opposed, h);
       if (second.is_beside)
         return first.distance;
       // of liquid between two sheets; negative: of air. The sum is the same on either
@@ -91,10 +98,12 @@ namespace treacle
     /// or of a corner do not count.
     template <int dim>
     double
-    corrected(const Point<dim> &x, const double old, const Near<dim> &near, const double h)
+    corrected(const Point<dim> &x, const double old, const Near<dim> near, const double h)
     {
-      const Tensor<1, dim> facing = nearest(x, near).normal;
-      Near<dim>            same, opposed;
+      const Tensor<1, dim> facing = nearest<dim>(x, near).normal;
+      static thread_local std::vector<const NearMarker<dim> *> same, opposed;
+      same.clear();
+      opposed.clear();
       bool                 is_smooth = true;
       double               sum = 0, residual = 0;
       for (const NearMarker<dim> *m : near)
@@ -114,38 +123,54 @@ namespace treacle
         return old;
       const double wanted = opposed.empty() && is_smooth ?
                               old - residual / sum :
-                              distance_from_sheets(x, old, same, opposed, h);
+                              distance_from_sheets<dim>(x, old, view<dim>(same), view<dim>(opposed), h);
       // a lone marker far away must not have its way with a node
       return old + std::min(sum, 1.) * (wanted - old);
     }
   } // namespace
 
   template <int dim>
-  void
-  correct_by_markers(State<dim> &state)
+  MarkerCorrection<dim>::MarkerCorrection(const State<dim> &state)
+    : mesh(*state.mesh)
+    , position(positions(state.markers))
+    , markers(mesh, state.markers, reach * mesh.finest_size())
+    , of_node(mesh.n_owned_nodes(), {invalid, invalid})
+  {}
+
+  template <int dim>
+  typename MarkerCorrection<dim>::Near
+  MarkerCorrection<dim>::around(const LocalIndex node)
   {
-    const Mesh<dim>    &mesh = *state.mesh;
-    const double        h    = mesh.finest_size();
+    auto &[begin, end] = of_node[node];
+    if (begin == invalid)
+      {
+        begin = near.size();
+        markers.append_around(mesh.node_position[node], near);
+        end = near.size();
+      }
+    return Near(near.data() + begin, end - begin);
+  }
+
+  template <int dim>
+  void
+  MarkerCorrection<dim>::apply(State<dim> &state)
+  {
+    const double        h = mesh.finest_size();
     std::vector<double> values;
-    for (const auto &at : SmoothLevelSet<dim>(mesh, state.phi).samples(positions(state.markers)))
+    for (const auto &at : SmoothLevelSet<dim>(mesh, state.phi).samples(position, guesses))
       values.push_back(at.smoothness < 0.5 ? std::nan("") : at.value);
-    const NearMarkers<dim> markers(mesh, state.markers, values, reach * h);
-    Near<dim>              near;
+    markers.set_values(values);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
         double &phi = state.phi.local_element(node);
         if (std::abs(phi) > 3 * h)
           continue;
-        const Point<dim> &x = mesh.node_position[node];
-        markers.around(x, near);
-        if (!near.empty())
-          phi = corrected(x, phi, near, h);
+        if (const Near near = around(node); near.size() > 0)
+          phi = corrected<dim>(mesh.node_position[node], phi, near, h);
       }
     state.phi.update_ghost_values();
   }
 
-  template void
-  correct_by_markers(State<2> &);
-  template void
-  correct_by_markers(State<3> &);
+  template class MarkerCorrection<2>;
+  template class MarkerCorrection<3>;
 } // namespace treacle

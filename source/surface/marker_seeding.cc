@@ -158,18 +158,16 @@ namespace treacle
       keep_in_line(std::vector<Marker<dim>> &seeds) const
       {
         const double           reach = 0.75 * mesh.finest_size();
-        const NearMarkers<dim> markers(mesh,
-                                       state.markers,
-                                       std::vector<double>(state.markers.size()),
-                                       reach);
+        const NearMarkers<dim> markers(mesh, state.markers, reach);
         std::vector<Marker<dim>>                   kept;
         std::vector<const NearMarker<dim> *> near;
         for (const Marker<dim> &seed : seeds)
           {
             if (scene.has_solids() && scene.solid_distance(seed.position, state.time) < 0)
               continue;
-            markers.around(seed.position, near);
-            if (near.empty() || nearest(seed.position, near).normal * seed.normal > 0.5)
+            near.clear();
+            markers.append_around(seed.position, near);
+            if (near.empty() || nearest<dim>(seed.position, {near.data(), near.size()}).normal * seed.normal > 0.5)
               kept.push_back(seed);
           }
         seeds = std::move(kept);

@@ -10,28 +10,43 @@ namespace treacle
   template <int dim>
   NearMarkers<dim>::NearMarkers(const Mesh<dim>                &mesh,
                                 const std::vector<Marker<dim>> &markers,
-                                const std::vector<double>      &values,
                                 const double                    reach)
     : reach(reach)
+    , comm(mesh.communicator())
     , origin(mesh.box().get_boundary_points().first)
   {
-    const NearRanks<dim>                     near(mesh, reach);
-    PerRank<std::array<double, 2 * dim + 1>> to_rank(near.n_ranks());
+    const NearRanks<dim>                   near(mesh, reach);
+    PerRank<typename Marker<dim>::Numbers> to_rank(near.n_ranks());
+    sent.resize(near.n_ranks());
     for (unsigned int k = 0; k < markers.size(); ++k)
       {
-        all.push_back({markers[k], values[k]});
+        all.push_back({markers[k], 0.});
         const Point<dim> &x = markers[k].position;
         near.for_each(BoundingBox<dim>({x, x}), [&](const unsigned int r) {
-          const auto numbers = markers[k].numbers();
-          to_rank[r].emplace_back();
-          std::copy(numbers.begin(), numbers.end(), to_rank[r].back().begin());
-          to_rank[r].back().back() = values[k];
+          to_rank[r].push_back(markers[k].numbers());
+          sent[r].push_back(k);
         });
       }
-    for (const auto &received : send_and_receive(mesh.communicator(), to_rank))
+    for (const auto &received : send_and_receive(comm, to_rank))
       for (const auto &numbers : received)
-        all.push_back({Marker<dim>::from(numbers.data()), numbers.back()});
+        all.push_back({Marker<dim>::from(numbers.data()), 0.});
     sort_into_cubes();
+  }
+
+  template <int dim>
+  void
+  NearMarkers<dim>::set_values(const std::vector<double> &values)
+  {
+    unsigned int next = 0;
+    for (const double value : values)
+      all[place[next++]].value = value;
+    PerRank<double> to_rank(sent.size());
+    for (unsigned int r = 0; r < sent.size(); ++r)
+      for (const unsigned int k : sent[r])
+        to_rank[r].push_back(values[k]);
+    for (const auto &received : send_and_receive(comm, to_rank))
+      for (const double value : received)
+        all[place[next++]].value = value;
   }
 
   template <int dim>
@@ -59,10 +74,12 @@ namespace treacle
     });
     std::vector<NearMarker<dim>> sorted;
     sorted.reserve(all.size());
+    place.resize(all.size());
     for (const auto &[key, k] : order)
       {
         const unsigned int at = sorted.size();
         cubes.emplace(key, std::make_pair(at, at)).first->second.second = at + 1;
+        place[k] = at;
         sorted.push_back(all[k]);
       }
     all = std::move(sorted);
@@ -70,10 +87,9 @@ namespace treacle
 
   template <int dim>
   void
-  NearMarkers<dim>::around(const Point<dim>                     &x,
-                           std::vector<const NearMarker<dim> *> &result) const
+  NearMarkers<dim>::append_around(const Point<dim>                     &x,
+                                  std::vector<const NearMarker<dim> *> &result) const
   {
-    result.clear();
     Point<dim> lower = x, upper = x;
     for (unsigned int d = 0; d < dim; ++d)
       {

@@ -93,7 +93,7 @@ namespace treacle
         if (kept == 1)
           continue;
         const double distance =
-          std::min(surface.nearest(mesh.node_position[node]).distance, reach);
+          std::min(surface.nearest(mesh.node_position[node], std::abs(value)).distance, reach);
         value = kept * value + (1 - kept) * (value < 0 ? -distance : distance);
       }
     phi.update_ghost_values();

@@ -66,15 +66,15 @@ namespace treacle
   } // namespace
 
   template <int dim>
-  void
-  SurfaceDistance<dim>::find_near(const Point<dim> &x) const
+  bool
+  SurfaceDistance<dim>::find_near(const Point<dim> &x, const double within) const
   {
     candidates.clear();
-    double least = reach;
-    tree.search(x, reach, [&](const unsigned int facet) {
+    double least = within;
+    tree.search(x, within, [&](const unsigned int facet) {
       const Point<dim> p = nearest_point(facets[facet], x);
       const double     d = p.distance(x);
-      if (d < reach && d <= least + tolerance)
+      if (d < within && d <= least + tolerance)
         candidates.push_back({p, d, facet});
       least = std::min(least, d);
       return least + tolerance;
@@ -82,17 +82,19 @@ namespace treacle
     const auto is_farther = [&](const Candidate &c) { return c.distance > least + tolerance; };
     candidates.erase(std::remove_if(candidates.begin(), candidates.end(), is_farther),
                      candidates.end());
+    return least + tolerance < within;
   }
 
   template <int dim>
   typename SurfaceDistance<dim>::Nearest
-  SurfaceDistance<dim>::nearest(const Point<dim> &x) const
+  SurfaceDistance<dim>::nearest(const Point<dim> &x, const double expected) const
   {
     Nearest best{x, std::numeric_limits<double>::infinity()};
     // on the box a nearest point is often the corner of several facets, and in a plane of
     // symmetry two points are as near: all of them count, for their order depends on the
     // partition
-    find_near(x);
+    if (!(1.2 * expected < reach && find_near(x, 1.2 * expected)))
+      find_near(x, reach);
     for (const Candidate &c : candidates)
       {
         if (&c == &candidates.front() || comes_first(c.point, best.point, tolerance))

@@ -58,10 +58,14 @@ namespace treacle
                                 const double         volume) const
   {
     if (has_markers())
-      correct_by_markers(state);
-    redistance(state, reach);
-    if (has_markers())
-      correct_by_markers(state);
+      {
+        MarkerCorrection<dim> markers(state);
+        markers.apply(state);
+        redistance(state, reach);
+        markers.apply(state);
+      }
+    else
+      redistance(state, reach);
     if (prm.volume_correction)
       correct_volume(state, data, volume);
     auto surface = std::make_unique<const SurfaceGeometry<dim>>(state.mesh, state.phi);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/maximum.h>
 #include <treacle/viscosity/node_system.h>
+
+#include <limits>
 
 namespace treacle
 {
@@ -261,12 +264,26 @@ namespace treacle
   }
 
   template <int dim>
+  bool
+  NodeSystem<dim>::acts_across(const Stiffness &stiffness) const
+  {
+    double furthest = 0; // squared (m^2)
+    for (LocalIndex c = 0; c < stiffness.strain.size(); ++c)
+      if (const double mass = domain.density[c] * domain.open_volume(c); mass > 0)
+        furthest = std::max(furthest, stiffness.strain[c] / mass);
+    double edge = std::numeric_limits<double>::max();
+    for (unsigned int d = 0; d < dim; ++d)
+      edge = std::min(edge, domain.mesh.box().side_length(d));
+    return largest(domain.mesh.communicator(), furthest) > std::pow(0.25 * edge, 2);
+  }
+
+  template <int dim>
   NearNullSpace
   NodeSystem<dim>::stress_free_motions(const Stiffness &stiffness) const
   {
     NearNullSpace space;
     space.n_components   = dim;
-    space.n_vectors      = !stiffness.gradient.empty() ? dim : dim == 2 ? 3 : 6;
+    space.n_vectors      = acts_across(stiffness) ? (dim == 2 ? 3 : 6) : dim;
     const std::size_t n  = dim * owned_nodes.size();
     const Point<dim>  origin = domain.mesh.middle();
     space.vectors.assign(space.n_vectors * n, 0);

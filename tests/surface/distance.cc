@@ -94,7 +94,7 @@ check_weightless_marker()
     state.phi.local_element(node) = mesh.node_position[node][0] - 0.53;
   state.phi.update_ghost_values();
   state.markers = {marker};
-  correct_by_markers(state);
+  MarkerCorrection<2>(state).apply(state);
   tests::out() << "a marker without weight: phi "
                << (std::isfinite(state.phi.l2_norm()) ? "finite" : "NOT FINITE") << std::endl;
 }

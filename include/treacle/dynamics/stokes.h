@@ -28,7 +28,7 @@ namespace treacle
   public:
     struct Parameters
     {
-      double       relative_tolerance = 1e-8;
+      double       relative_tolerance = 1e-6;
       unsigned int maximum_iterations = 500;
 
       void
@@ -92,7 +92,7 @@ namespace treacle
     const Hybrid<dim>        hybrid;
     const LinearSolver       nodes_solver;
     const std::unique_ptr<const TrilinosWrappers::SparseMatrix> viscous_schur;
-    const LinearSolver                                          viscous_schur_solver;
+    TrilinosWrappers::PreconditionChebyshev                     viscous_schur_inverse;
     /// scratch
     mutable NodeVector<dim> v;
     mutable Vector          q, flux, force, z_viscous;

@@ -77,9 +77,20 @@ namespace treacle
   NodeVector<dim>
   nodal_gradient(const Mesh<dim> &mesh, const Vector &field)
   {
+    std::vector<Tensor<1, dim>> sum(mesh.node_position.size());
+    std::vector<double>         volume(sum.size());
+    for (LocalIndex c = 0; c < mesh.cell_nodes.size(); ++c)
+      {
+        const Tensor<1, dim> part = mesh.cell_volume[c] * cell_gradient(mesh, c, field);
+        for (const LocalIndex node : mesh.cell_nodes[c])
+          {
+            sum[node] += part;
+            volume[node] += mesh.cell_volume[c];
+          }
+      }
     NodeVector<dim> gradient(mesh.nodes);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      gradient.set(node, mean_gradient(mesh, field, node).mean);
+      gradient.set(node, sum[node] / volume[node]);
     gradient.update_ghost_values();
     return gradient;
   }

@@ -4,7 +4,10 @@
 #ifndef treacle_surface_near_markers_h
 #define treacle_surface_near_markers_h
 
+#include <treacle/base/exchange.h>
 #include <treacle/fields/marker.h>
+
+#include <deal.II/base/array_view.h>
 
 namespace treacle
 {
@@ -19,7 +22,7 @@ namespace treacle
   /// The one nearest to @p x of some, at least one.
   template <int dim>
   const Marker<dim> &
-  nearest(const Point<dim> &x, const std::vector<const NearMarker<dim> *> &markers)
+  nearest(const Point<dim> &x, const ArrayView<const NearMarker<dim> *const> markers)
   {
     const auto distance = [&](const auto *m) { return (x - m->marker.position).norm_square(); };
     return (*std::min_element(markers.begin(),
@@ -33,15 +36,18 @@ namespace treacle
   class NearMarkers
   {
   public:
-    /// @p markers of this rank, with @p values; collective.
+    /// @p markers of this rank; collective.
     NearMarkers(const Mesh<dim>                &mesh,
                 const std::vector<Marker<dim>> &markers,
-                const std::vector<double>      &values,
                 const double                    reach);
 
-    /// Markers closer to @p x than the reach.
+    /// Of this rank's markers, in their order; 0 before. Collective.
     void
-    around(const Point<dim> &x, std::vector<const NearMarker<dim> *> &result) const;
+    set_values(const std::vector<double> &values);
+
+    /// Add the markers closer to @p x than the reach to @p result. They stay where they are.
+    void
+    append_around(const Point<dim> &x, std::vector<const NearMarker<dim> *> &result) const;
 
     const double reach; ///< m
 
@@ -53,8 +59,12 @@ namespace treacle
     void
     sort_into_cubes();
 
+    const MPI_Comm                                                        comm;
     const Point<dim>                                                      origin;
+    PerRank<unsigned int>                                                 sent; ///< markers, to ranks
     std::vector<NearMarker<dim>>                                          all;
+    /// In all, of this rank's markers and then of those it was sent.
+    std::vector<unsigned int>                                             place;
     std::unordered_map<VertexKey, std::pair<unsigned int, unsigned int>> cubes; ///< begin, end
   };
 } // namespace treacle

@@ -28,9 +28,11 @@ namespace treacle
       double     distance; ///< m, not signed; infinite if beyond the reach
     };
 
-    /// Of points that are as near the one of smallest coordinates, whatever the partition.
+    /// Of points that are as near the one of smallest coordinates, whatever the partition. An
+    /// @p expected distance (m) of about the right size saves work.
     Nearest
-    nearest(const Point<dim> &x) const;
+    nearest(const Point<dim> &x,
+            const double      expected = std::numeric_limits<double>::infinity()) const;
 
     const double reach;
 
@@ -48,9 +50,10 @@ namespace treacle
       unsigned int facet;
     };
 
-    /// Those of all facets that are as near as any, into candidates.
-    void
-    find_near(const Point<dim> &x) const;
+    /// Those of all facets that are as near as any closer than @p within (m), into candidates.
+    /// Returns false if there are none, or others that are as near may lie just beyond.
+    bool
+    find_near(const Point<dim> &x, const double within) const;
 
     double
     distance_beyond_box(const Point<dim> &x, const Point<dim> &nearest, const Facet &facet) const;

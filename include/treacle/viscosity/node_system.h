@@ -92,14 +92,19 @@ namespace treacle
       return owned_nodes;
     }
 
-    /// Motions without stress, zero at prescribed components: the rigid ones, or
-    /// translations alone where there is no strain term.
+    /// Motions without stress, zero at prescribed components: the rigid ones, or translations
+    /// alone where there is no strain term, or where it does not act across the liquid: then
+    /// rotations cost more than they save. Collective.
     NearNullSpace
     stress_free_motions(const Stiffness &stiffness) const;
 
     const LiquidDomain<dim> &domain;
 
   private:
+    /// Is the way that momentum spreads as long as a quarter of the box's shortest edge?
+    bool
+    acts_across(const Stiffness &stiffness) const;
+
     /// The rows of a node: blocks of dim by dim.
     struct Row;
 
