@@ -36,6 +36,7 @@ namespace treacle
       return result;
     }
 
+    /// Walls are known to the mesh: deal.II need not.
     template <int dim>
     TriangulationDescription::CellData<dim>
     cell_info(const typename MeshCells<dim>::Cell &cell)
@@ -47,31 +48,41 @@ namespace treacle
       info.manifold_id        = numbers::flat_manifold_id;
       info.manifold_line_ids.fill(numbers::flat_manifold_id);
       info.manifold_quad_ids.fill(numbers::flat_manifold_id);
-      for (unsigned int f = 0; f <= dim; ++f)
-        if (const unsigned char wall = cell.wall[opposite_vertex<dim>(f)];
-            wall != Walls<dim>::none)
-          info.boundary_ids.emplace_back(f, wall);
       return info;
     }
 
+    /// Its cells have the indices of the mesh's.
     template <int dim>
-    TriangulationDescription::Description<dim, dim>
-    describe(const MPI_Comm &comm, const MeshCells<dim> &mesh)
+    std::unique_ptr<Triangulation<dim>>
+    triangulate(const MPI_Comm &comm, const MeshCells<dim> &mesh)
     {
       TriangulationDescription::Description<dim, dim> description;
+      for (const auto &vertex : mesh.vertices)
+        description.coarse_cell_vertices.push_back(vertex.position);
+      description.coarse_cells.reserve(mesh.cells.size());
+      for (const auto &cell : mesh.cells)
+        description.coarse_cells.push_back(coarse_cell<dim>(cell));
+      if (Utilities::MPI::n_mpi_processes(comm) == 1)
+        {
+          // it sorts no cells by their ids, which is half of the work
+          auto triangulation = std::make_unique<Triangulation<dim>>();
+          triangulation->create_triangulation(description.coarse_cell_vertices,
+                                              description.coarse_cells,
+                                              SubCellData());
+          return triangulation;
+        }
       description.comm      = comm;
       description.settings  = TriangulationDescription::Settings::default_setting;
       description.smoothing = Triangulation<dim>::none;
       description.cell_infos.resize(1);
-      for (const auto &vertex : mesh.vertices)
-        description.coarse_cell_vertices.push_back(vertex.position);
       for (const auto &cell : mesh.cells)
         {
-          description.coarse_cells.push_back(coarse_cell<dim>(cell));
           description.coarse_cell_index_to_coarse_cell_id.push_back(cell.id);
           description.cell_infos[0].push_back(cell_info<dim>(cell));
         }
-      return description;
+      auto triangulation = std::make_unique<parallel::fullydistributed::Triangulation<dim>>(comm);
+      triangulation->create_triangulation(description);
+      return triangulation;
     }
 
     template <int dim>
@@ -103,32 +114,6 @@ namespace treacle
       return std::make_shared<const Utilities::MPI::Partitioner>(
         dofs.locally_owned_dofs(), relevant, comm);
     }
-
-    /// The place of each cell that deal.II knows by its id.
-    template <int dim>
-    std::unordered_map<GlobalIndex, unsigned int>
-    index_by_id(const MeshCells<dim> &mesh)
-    {
-      std::unordered_map<GlobalIndex, unsigned int> index_of;
-      index_of.reserve(mesh.cells.size());
-      for (unsigned int i = 0; i < mesh.cells.size(); ++i)
-        index_of[mesh.cells[i].id] = i;
-      return index_of;
-    }
-
-    template <int dim>
-    std::array<LocalIndex, dim + 1>
-    local_indices(const typename Triangulation<dim>::cell_iterator &cell,
-                  const DoFHandler<dim>                            &dofs,
-                  const Utilities::MPI::Partitioner                &partitioner)
-    {
-      std::vector<GlobalIndex> numbers(dim + 1);
-      typename DoFHandler<dim>::active_cell_iterator(*cell, &dofs)->get_dof_indices(numbers);
-      std::array<LocalIndex, dim + 1> result;
-      for (unsigned int v = 0; v <= dim; ++v)
-        result[v] = partitioner.global_to_local(numbers[v]);
-      return result;
-    }
   } // namespace
 
   template <int dim>
@@ -138,25 +123,30 @@ namespace treacle
     , cell_nodes(mesh.cells.size())
     , cell_faces(mesh.cells.size())
   {
-    parallel::fullydistributed::Triangulation<dim> triangulation(comm);
-    triangulation.create_triangulation(describe(comm, mesh));
-    DoFHandler<dim> node_dofs(triangulation), face_dofs(triangulation);
+    const auto      triangulation = triangulate(comm, mesh);
+    DoFHandler<dim> node_dofs(*triangulation), face_dofs(*triangulation);
     node_dofs.distribute_dofs(FE_SimplexP<dim>(1));
     face_dofs.distribute_dofs(FaceNormalElement<dim>());
     nodes = partitioner_of(comm, node_dofs);
     faces = partitioner_of(comm, face_dofs);
 
-    const auto index_of = index_by_id(mesh);
-    for (const auto &accessor : triangulation.active_cell_iterators())
+    std::array<unsigned int, dim + 1> opposite;
+    for (unsigned int f = 0; f <= dim; ++f)
+      opposite[f] = opposite_vertex<dim>(f);
+    std::vector<GlobalIndex> of_nodes(dim + 1), of_faces(dim + 1);
+    for (const auto &accessor : node_dofs.active_cell_iterators())
       if (!accessor->is_artificial())
         {
-          const GlobalIndex  id      = accessor->id().get_coarse_cell_id();
-          const unsigned int i       = index_of.at(id);
-          const auto         by_face = local_indices<dim>(accessor, face_dofs, *faces);
-          cell[i]       = cells->global_to_local(id);
-          cell_nodes[i] = local_indices<dim>(accessor, node_dofs, *nodes);
-          for (unsigned int f = 0; f <= dim; ++f)
-            cell_faces[i][opposite_vertex<dim>(f)] = by_face[f];
+          const unsigned int i = accessor->index();
+          cell[i]              = cells->global_to_local(mesh.cells[i].id);
+          accessor->get_dof_indices(of_nodes);
+          typename DoFHandler<dim>::active_cell_iterator(triangulation.get(), 0, i, &face_dofs)
+            ->get_dof_indices(of_faces);
+          for (unsigned int k = 0; k <= dim; ++k)
+            {
+              cell_nodes[i][k]           = nodes->global_to_local(of_nodes[k]);
+              cell_faces[i][opposite[k]] = faces->global_to_local(of_faces[k]);
+            }
         }
   }
 

@@ -83,13 +83,13 @@ namespace treacle
 
   template <int dim>
   unsigned int
-  PressureSystem<dim>::solve(Vector &q, Vector &b) const
+  PressureSystem<dim>::solve(Vector &q, Vector &b, const double scale) const
   {
     pockets.balance(b);
     // the matrix makes the pressure of the pinned cells 0, and so must the first guess; but
     // which cells these are depends on the partition
     pockets.take_off_pinned(q);
-    const unsigned int iterations = solver.solve(q, b);
+    const unsigned int iterations = solver.solve(q, b, scale);
     pockets.take_off_mean(q);
     return iterations;
   }

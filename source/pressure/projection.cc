@@ -19,7 +19,9 @@ namespace treacle
         if (pass == Pass::first)
           q.local_element(i) = state.pressure.local_element(cells[i]) * step;
       }
-    const unsigned int iterations = system.solve(q, b);
+    // a correction is small beside what flows in and out, which has the say
+    const unsigned int iterations =
+      system.solve(q, b, pass == Pass::correction ? throughflow(state.u) : 0.);
 
     Vector q_cell = mesh.zeros(mesh.cells);
     system.to_cells(q, q_cell);
@@ -30,6 +32,22 @@ namespace treacle
         q_cell.local_element(c) / step;
     state.pressure.update_ghost_values();
     return iterations;
+  }
+
+  template <int dim>
+  double
+  Projection<dim>::throughflow(const Vector &u) const
+  {
+    const Mesh<dim> &mesh = system.domain.mesh;
+    double           sum  = 0;
+    for (const LocalIndex c : system.cells())
+      {
+        double flux = 0;
+        for (const LocalIndex f : mesh.cell_faces[c])
+          flux += mesh.face_area[f] * system.domain.open_fraction[f] * std::abs(u.local_element(f));
+        sum += flux * flux;
+      }
+    return std::sqrt(Utilities::MPI::sum(sum, mesh.communicator()));
   }
 
   template class Projection<2>;

@@ -145,7 +145,7 @@ namespace treacle
   }
 
   unsigned int
-  LinearSolver::solve(Vector &x, const Vector &b) const
+  LinearSolver::solve(Vector &x, const Vector &b, const double scale) const
   {
     const double norm = b.l2_norm();
     if (norm == 0)
@@ -154,7 +154,7 @@ namespace treacle
         return 0;
       }
     require_finite(norm, name);
-    SolverControl control(prm.maximum_iterations, prm.relative_tolerance * norm);
+    SolverControl control(prm.maximum_iterations, prm.relative_tolerance * std::max(norm, scale));
     try
       {
         SolverCG<Vector> solver(control);

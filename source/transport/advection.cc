@@ -35,13 +35,15 @@ namespace treacle
       return result;
     }
 
-    /// In the middle of the step: as steady as it was before it.
+    /// After a part of the step: as steady as it was before it.
     template <int dim>
     NodeVector<dim>
-    velocity_in_middle(const State<dim> &old, const BackwardDifference &difference)
+    velocity_after(const double              part_of_step,
+                   const State<dim>         &old,
+                   const BackwardDifference &difference)
     {
       const double part =
-        difference.before == 0 ? 0. : 0.5 * difference.dt / old.before->dt;
+        difference.before == 0 ? 0. : part_of_step * difference.dt / old.before->dt;
       return combined(1 + part, old.v, -part, part == 0 ? old.v : *old.before->v);
     }
 
@@ -87,10 +89,17 @@ namespace treacle
     , surface(surface)
     , difference(difference)
     , dt(difference.dt)
-    , velocity(velocity_in_middle(old, difference))
+    , velocity(velocity_after(0.5, old, difference))
     , surface_velocity(treacle::surface_velocity(
         old, domain, velocity, dt * maximum_speed(old, domain) + 2 * old.mesh->finest_size()))
   {}
+
+  template <int dim>
+  NodeVector<dim>
+  Advection<dim>::velocity_at_end() const
+  {
+    return velocity_after(1, old, difference);
+  }
 
   template <int dim>
   std::vector<Point<dim>>

@@ -43,6 +43,19 @@ namespace treacle
     return {rebuilt, emitted};
   }
 
+  namespace
+  {
+    /// The velocity for the next solves to begin with: as steady as it was before.
+    template <int dim>
+    NodeVector<dim>
+    first_guess(const State<dim> &old, const State<dim> &next, const Advection<dim> &advection)
+    {
+      if (next.mesh == old.mesh)
+        return advection.velocity_at_end();
+      return next.before ? *next.before->v : NodeVector<dim>(next.mesh->nodes);
+    }
+  } // namespace
+
   template <int dim>
   std::unique_ptr<State<dim>>
   Transport<dim>::carry(const State<dim>                       &old,
@@ -53,8 +66,7 @@ namespace treacle
     auto next = std::make_unique<State<dim>>(advection.advance(mesh, reach));
     if (remembers(old.time))
       next->before = advection.velocity_before(*mesh);
-    if (mesh == old.mesh) // the first guess of the next solves
-      next->v = old.v;
+    next->v = first_guess(old, *next, advection);
     // a state that is moved may keep its old ghosts
     next->phi.update_ghost_values();
     next->u.update_ghost_values();

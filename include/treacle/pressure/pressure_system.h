@@ -96,9 +96,10 @@ namespace treacle
     assemble(const FaceFunction &mobility, const std::vector<double> &diagonal) const;
 
     /// Solve the projection's equation for q from what it holds. In a pocket without a free
-    /// surface its mean is 0. Returns the number of iterations.
+    /// surface its mean is 0. The tolerance is relative to b, or to @p scale if that is larger.
+    /// Returns the number of iterations.
     unsigned int
-    solve(Vector &q, Vector &b) const;
+    solve(Vector &q, Vector &b, const double scale) const;
 
     /// z = the preconditioner of the projection's matrix times r.
     void

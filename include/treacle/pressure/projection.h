@@ -44,6 +44,10 @@ namespace treacle
     advance(State<dim> &state, const double step, const Pass pass) const;
 
   private:
+    /// What flows through the cells: the norm of the sums of |flux| (m^dim/s). Collective.
+    double
+    throughflow(const Vector &u) const;
+
     const PressureSystem<dim> &system;
   };
 } // namespace treacle

@@ -78,10 +78,10 @@ namespace treacle
                  const Operator    &matrix,
                  const Operator    &preconditioner);
 
-    /// Improve x until |b - A x| <= tolerance |b|. Returns the number of
+    /// Improve x until |b - A x| <= tolerance max(|b|, @p scale). Returns the number of
     /// iterations. Throws a UserError where it does not get there.
     unsigned int
-    solve(Vector &x, const Vector &b) const;
+    solve(Vector &x, const Vector &b, const double scale = 0) const;
 
     /// z = the preconditioner times r.
     void

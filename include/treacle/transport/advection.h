@@ -55,6 +55,10 @@ namespace treacle
     std::vector<Point<dim>>
     move_surface(const std::vector<Point<dim>> &x) const;
 
+    /// At the nodes of the old mesh, continued in time to the end of the step.
+    NodeVector<dim>
+    velocity_at_end() const;
+
     /// The markers after dt, still on the ranks they came from.
     std::vector<Marker<dim>>
     move_markers() const;
