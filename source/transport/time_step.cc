@@ -87,7 +87,8 @@ namespace treacle
     const double v  = maximum_speed(state, domain);
     const double g  = maximum_gravity(domain, state.time);
     const double dt = std::min(prm.maximum, prm.frame_interval);
-    return reach_of(std::min(prm.cfl * domain.mesh.finest_size(), (v + g * dt) * dt), domain.mesh);
+    return std::min(furthest_trace((v + g * dt) * dt) + 4 * domain.mesh.surface_size(),
+                    largest_reach(domain.mesh));
   }
 
   template <int dim>

@@ -36,7 +36,7 @@ namespace treacle
     next->markers        = to_owners(*mesh, markers);
     const double emitted = emit(*next, *data, difference.dt);
     auto         surface =
-      tracking.advance(*next, *data, reach, volume + emitted);
+      tracking.advance(*next, *data, time_step.reach_of_distance(reach, *mesh), volume + emitted);
     if (next->material)
       extend_material(*next, *data);
     liquid = {std::move(data), std::move(next), std::move(surface), nullptr};

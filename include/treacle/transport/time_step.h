@@ -43,8 +43,8 @@ namespace treacle
     double
     next(const State<dim> &state, const LiquidDomain<dim> &domain, const unsigned int frame) const;
 
-    /// How far from the surface velocity and distance must be known for the step from
-    /// state.time (m). Throws like next(). Collective.
+    /// How far from the surface the velocity must be known for the step from state.time (m).
+    /// Throws like next(). Collective.
     double
     reach(const State<dim> &state, const LiquidDomain<dim> &domain) const;
 
@@ -52,7 +52,15 @@ namespace treacle
     double
     largest_reach(const Mesh<dim> &mesh) const
     {
-      return reach_of(prm.cfl * mesh.finest_size(), mesh);
+      return furthest_trace(prm.cfl * mesh.finest_size()) + 3 * mesh.surface_size();
+    }
+
+    /// How far phi must be a distance, if the velocity is known up to @p reach (m): nodal gradients
+    /// feel what it is further out (with 5 leaves an inviscid drop's axes change by 3e-5).
+    static double
+    reach_of_distance(const double reach, const Mesh<dim> &mesh)
+    {
+      return std::max(reach, 6 * mesh.surface_size());
     }
 
     /// The velocity of the step before is part of the state then.
@@ -76,14 +84,12 @@ namespace treacle
     }
 
   private:
-    /// For a step in which the liquid moves by @p distance (m).
+    /// Of a step in which the liquid moves by @p distance (m).
     double
-    reach_of(const double distance, const Mesh<dim> &mesh) const
+    furthest_trace(const double distance) const
     {
-      // BDF2 asks for the velocity before of where the surface will be. What phi is further out
-      // is felt through nodal gradients: with 5 leaves an inviscid drop's axes change by 3e-5
-      return std::max((is_second_order() ? 2 : 1) * distance + 3 * mesh.surface_size(),
-                      6 * mesh.surface_size());
+      // BDF2 asks for the velocity before of where the surface will be
+      return (is_second_order() ? 2 : 1) * distance;
     }
 
     const Parameters prm;
