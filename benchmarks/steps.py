@@ -92,7 +92,7 @@ def main():
                 runs = [[run(program, scene, level, ranks) for program in arguments.programs]
                         for _ in range(arguments.repeat)]
                 for k, program in enumerate(arguments.programs):
-                    print(row(Path(program).parent.parent.parent.name if len(arguments.programs) > 1
+                    print(row(Path(program).resolve().parents[2].name if len(arguments.programs) > 1
                               else "treacle", level, ranks, scene, [r[k] for r in runs]), flush=True)
 
 
