@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/base/maximum.h>
 #include <treacle/viscosity/node_system.h>
-
-#include <limits>
 
 namespace treacle
 {
@@ -261,49 +258,6 @@ namespace treacle
         for (const LocalIndex node : mesh.face_nodes[f])
           momentum[node] += face_mass[f] / dim * u.local_element(f) * mesh.face_normal[f];
     return momentum;
-  }
-
-  template <int dim>
-  bool
-  NodeSystem<dim>::acts_across(const Stiffness &stiffness) const
-  {
-    double furthest = 0; // squared (m^2)
-    for (LocalIndex c = 0; c < stiffness.strain.size(); ++c)
-      if (const double mass = domain.density[c] * domain.open_volume(c); mass > 0)
-        furthest = std::max(furthest, stiffness.strain[c] / mass);
-    double edge = std::numeric_limits<double>::max();
-    for (unsigned int d = 0; d < dim; ++d)
-      edge = std::min(edge, domain.mesh.box().side_length(d));
-    return largest(domain.mesh.communicator(), furthest) > std::pow(0.25 * edge, 2);
-  }
-
-  template <int dim>
-  NearNullSpace
-  NodeSystem<dim>::stress_free_motions(const Stiffness &stiffness) const
-  {
-    NearNullSpace space;
-    space.n_components   = dim;
-    space.n_vectors      = acts_across(stiffness) ? (dim == 2 ? 3 : 6) : dim;
-    const std::size_t n  = dim * owned_nodes.size();
-    const Point<dim>  origin = domain.mesh.middle();
-    space.vectors.assign(space.n_vectors * n, 0);
-    for (unsigned int i = 0; i < owned_nodes.size(); ++i)
-      {
-        const Tensor<1, dim> r = domain.mesh.node_position[owned_nodes[i]] - origin;
-        const auto           set = [&](const unsigned int k, const unsigned int d, const double value) {
-          if ((domain.constrained[owned_nodes[i]] >> d & 1) == 0)
-            space.vectors[k * n + dim * i + d] = value;
-        };
-        for (unsigned int d = 0; d < dim; ++d)
-          set(d, d, 1);
-        for (unsigned int k = dim; k < space.n_vectors; ++k)
-          {
-            const unsigned int a = (k - dim) % dim, b = (k - dim + 1) % dim;
-            set(k, a, -r[b]);
-            set(k, b, r[a]);
-          }
-      }
-    return space;
   }
 
   template class NodeSystem<2>;

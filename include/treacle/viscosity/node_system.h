@@ -93,8 +93,8 @@ namespace treacle
     }
 
     /// Motions without stress, zero at prescribed components: the rigid ones, or translations
-    /// alone where there is no strain term, or where it does not act across the liquid: then
-    /// rotations cost more than they save. Collective.
+    /// alone where there is no strain term, or where the liquid is one piece and it does not act
+    /// across it: then rotations cost more than they save. Collective.
     NearNullSpace
     stress_free_motions(const Stiffness &stiffness) const;
 
@@ -104,6 +104,10 @@ namespace treacle
     /// Is the way that momentum spreads as long as a quarter of the box's shortest edge?
     bool
     acts_across(const Stiffness &stiffness) const;
+
+    /// Crumbs are small beside that way: each of them turns as a rigid body.
+    bool
+    has_several_pieces() const;
 
     /// The rows of a node: blocks of dim by dim.
     struct Row;
