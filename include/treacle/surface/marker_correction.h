@@ -4,6 +4,7 @@
 #ifndef treacle_surface_marker_correction_h
 #define treacle_surface_marker_correction_h
 
+#include <treacle/fields/state.h>
 #include <treacle/mesh/tracer.h>
 #include <treacle/surface/near_markers.h>
 
