@@ -18,20 +18,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "python"))
-from treacle import read_statistics  # noqa: E402
+from treacle import read_statistics, read_timing  # noqa: E402
 
 COUPLINGS = ["split", "split with first projection", "coupled"]
 SCENES = {2: "coupling_2d", 3: "coupling"}
-
-
-def sections(directory):
-    """Seconds of the sections of timing.txt, by name."""
-    seconds = {}
-    for line in (Path(directory) / "timing.txt").read_text().splitlines()[1:]:
-        words = line.split()
-        if len(words) > 4 and words[-1] == "%":
-            seconds[" ".join(words[:-5])] = float(words[-4])
-    return seconds
 
 
 def measure(dimension, settings, ranks):
@@ -44,7 +34,7 @@ def measure(dimension, settings, ranks):
         done = subprocess.run(line, capture_output=True, text=True)
         if done.returncode != 0:
             sys.exit(f"coupling: {done.stderr.strip()}")
-        table, seconds = read_statistics(directory), sections(directory)
+        table, seconds = read_statistics(directory), read_timing(directory)[0]
         n_steps = len(table["Time (s)"]) - 1
         solve = sum(seconds.get(name, 0) for name in ("viscosity", "pressure", "coupled"))
         return (int(table["Cells"][-1]), int(max(table["Viscosity iterations"])),

@@ -21,6 +21,9 @@ from pathlib import Path
 from statistics import median
 
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "python"))
+from treacle import read_timing  # noqa: E402
+
 # file, first and last time (s) of the windows of steps that are compared
 SCENES = {
     "bowl": ("prm/benchmarks/bowl.prm", 0.3, {"flight": (0, 0.03), "contact": (0.25, 0.3)}),
@@ -48,11 +51,9 @@ def run(program, scene, level, ranks):
             sys.exit(f"steps: {done.stderr.strip()}")
         steps = [(float(m[1]), int(m[2]), bool(m[3]), float(m[4]))
                  for m in map(STEP.search, done.stdout.splitlines()) if m]
-        text = (Path(directory) / "timing.txt").read_text()
-    parts = {name: float(seconds) for name, seconds in
-             re.findall(r"^(\S.*?) +\d+ +([0-9.]+) s", text, re.M)}
+        parts, memory = read_timing(directory)
     cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return steps, parts, cpu, int(re.search(r"Peak memory: (\d+)", text)[1])
+    return steps, parts, cpu, memory
 
 
 def row(name, level, ranks, scene, runs):

@@ -18,6 +18,7 @@ from treacle.parameters import read_parameters
 from treacle.run import Run, Solid
 from treacle.statistics import Statistics, read_statistics
 from treacle.surface import Surface, read_surface
+from treacle.timing import read_timing
 
 __all__ = ["DataError", "Run", "Solid", "Statistics", "Surface", "read_parameters",
-           "read_statistics", "read_surface"]
+           "read_statistics", "read_surface", "read_timing"]

@@ -37,10 +37,15 @@ namespace treacle
     if (!solver)
       {
         assembled = system.assemble(NodeSystem<dim>::Mass::faces, stiffness);
-        solver    = std::make_unique<LinearSolver>(prm.solver,
+        // they are not for nothing: none but multigrid asks for them
+        const bool is_multigrid =
+          prm.solver.preconditioner == LinearSolver::Preconditioner::amg;
+        solver = std::make_unique<LinearSolver>(prm.solver,
                                                 "Face fit",
                                                 *assembled.matrix,
-                                                system.stress_free_motions(stiffness));
+                                                is_multigrid ?
+                                                  system.stress_free_motions(stiffness) :
+                                                  NearNullSpace());
       }
     const Vector       b = system.right_hand_side(system.face_momentum(u), assembled);
     Vector             x = system.unknowns(v);
