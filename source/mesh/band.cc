@@ -4,6 +4,7 @@
 #include <treacle/mesh/ask.h>
 #include <treacle/mesh/band.h>
 
+#include <map>
 #include <unordered_set>
 
 namespace treacle
@@ -17,33 +18,97 @@ namespace treacle
       std::sort(v.begin(), v.end());
       v.erase(std::unique(v.begin(), v.end()), v.end());
     }
+
+    /// The octant, or what lies between some, that a normal points to; points of one cube
+    /// with the same one ask for the same cubes.
+    template <int dim>
+    LatticePoint<dim>
+    direction(const Tensor<1, dim> &normal)
+    {
+      constexpr double sin_of_half_a_quadrant = 0.3827;
+      LatticePoint<dim> signs{};
+      for (unsigned int d = 0; d < dim; ++d)
+        if (std::abs(normal[d]) > sin_of_half_a_quadrant)
+          signs[d] = normal[d] < 0 ? -1 : 1;
+      return signs;
+    }
+
+    /// From the cube of a point to those that it asks for, in cubes.
+    template <int dim>
+    std::vector<LatticePoint<dim>>
+    steps(const BandWidths &widths, const LatticePoint<dim> &outward)
+    {
+      const int n = std::max(1., std::max(widths.inner, widths.outer));
+      std::vector<LatticePoint<dim>> result;
+      unsigned int                   n_all = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        n_all *= 2 * n + 1;
+      for (unsigned int k = 0; k < n_all; ++k)
+        {
+          LatticePoint<dim> step;
+          int               along = 0, square = 0, longest = 0;
+          for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= 2 * n + 1)
+            {
+              step[d] = static_cast<int>(rest % (2 * n + 1)) - n;
+              along += step[d] * outward[d];
+              square += step[d] * step[d];
+              longest = std::max(longest, std::abs(step[d]));
+            }
+          const double width = along > 0 ? widths.outer : widths.inner;
+          if (longest <= 1 ||
+              (outward != LatticePoint<dim>{} && square <= width * width))
+            result.push_back(step);
+        }
+      return result;
+    }
+
+    template <int dim>
+    Point<dim>
+    centre_of_cube(const Octree<dim> &octree, const VertexKey cube)
+    {
+      LatticePoint<dim> centre = unpack<dim>(cube);
+      for (int &i : centre)
+        ++i;
+      return octree.position(centre);
+    }
   } // namespace
 
   template <int dim>
-  Band<dim>::Band(const Octree<dim>             &octree,
-                  const std::vector<Point<dim>> &points,
-                  const unsigned int             width)
+  Band<dim>::Band(const Octree<dim>                             &octree,
+                  const std::vector<BandPoint<dim>>             &points,
+                  const BandWidths                              &widths,
+                  const std::function<bool(const Point<dim> &)> &is_needed)
     : comm(octree.communicator())
     , finest_level(octree.parameters().surface_level)
   {
-    for (const Point<dim> &x : points)
-      cubes.push_back(octree.finest_cube(x));
-    sort_unique(cubes);
-    const int w = width;
-    for (unsigned int d = 0; d < dim; ++d)
+    std::map<LatticePoint<dim>, std::vector<VertexKey>> by_direction;
+    for (const BandPoint<dim> &point : points)
+      by_direction[direction(point.outward)].push_back(
+        pack<dim>(octree.finest_cube(point.position)));
+    for (auto &[outward, asking] : by_direction)
       {
-        std::vector<LatticePoint<dim>> grown;
-        for (const LatticePoint<dim> &cube : cubes)
-          for (int k = -w; k <= w; ++k)
+        sort_unique(asking);
+        for (const LatticePoint<dim> &step : steps<dim>(widths, outward))
+          for (const VertexKey cube : asking)
             {
-              LatticePoint<dim> other = cube;
-              other[d] += 2 * k;
-              if (other[d] >= 0 && other[d] < octree.extent()[d])
-                grown.push_back(other);
+              LatticePoint<dim> other     = unpack<dim>(cube);
+              bool              is_inside = true;
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  other[d] += 2 * step[d];
+                  is_inside = is_inside && other[d] >= 0 && other[d] < octree.extent()[d];
+                }
+              if (is_inside)
+                cubes.push_back(pack<dim>(other));
             }
-        sort_unique(grown);
-        cubes = std::move(grown);
       }
+    sort_unique(cubes);
+    cubes.erase(std::remove_if(cubes.begin(),
+                               cubes.end(),
+                               [&](const VertexKey cube) {
+                                 return !is_needed(centre_of_cube(octree, cube));
+                               }),
+                cubes.end());
   }
 
   template <int dim>
@@ -53,12 +118,9 @@ namespace treacle
     // a cube that is not one of this rank's leaves is asked of its owner
     std::vector<Point<dim>> elsewhere;
     bool                    finest = true;
-    for (const LatticePoint<dim> &cube : cubes)
+    for (const VertexKey cube : cubes)
       {
-        LatticePoint<dim> centre = cube;
-        for (int &i : centre)
-          ++i;
-        const Point<dim> x    = octree.position(centre);
+        const Point<dim> x    = centre_of_cube(octree, cube);
         const LocalIndex leaf = octree.leaf_containing(x);
         if (leaf == invalid)
           elsewhere.push_back(x);
@@ -123,8 +185,9 @@ namespace treacle
     const int size = root >> level;
 
     std::vector<VertexKey> of_cubes, of_leaves;
-    for (LatticePoint<dim> cube : cubes)
+    for (const VertexKey key : cubes)
       {
+        LatticePoint<dim> cube = unpack<dim>(key);
         for (int &i : cube)
           i &= ~(size - 1);
         of_cubes.push_back(pack<dim>(cube));

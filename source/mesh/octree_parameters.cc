@@ -65,7 +65,12 @@ namespace treacle
                       Patterns::Integer(0, 18));
     prm.add_parameter("Band width",
                       band_width,
-                      "Number of finest leaves on each side of the surface.",
+                      "Number of finest leaves inside the surface.",
+                      Patterns::Integer(1, 20));
+    prm.add_parameter("Air band width",
+                      air_band_width,
+                      "Number of finest leaves outside of the surface; where it moves, a new "
+                      "mesh is fine ahead of it too.",
                       Patterns::Integer(1, 20));
     prm.leave_subsection();
   }

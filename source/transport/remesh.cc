@@ -13,33 +13,34 @@ namespace treacle
     template <int dim>
     using LevelSet = std::function<std::vector<double>(const std::vector<Point<dim>> &)>;
 
-    /// The corners and centres of facets: what a band is laid around.
+    /// A facet's corners and centre, with its normal, are what a band is laid around.
     template <int dim>
-    std::vector<Point<dim>>
-    sample_points(const Surface<dim> &surface)
+    void
+    append(std::vector<BandPoint<dim>> &points, const std::array<Point<dim>, dim> &facet)
     {
-      std::vector<Point<dim>> x = surface.positions;
-      for (unsigned int k = 0; k < surface.facets.size(); ++k)
+      Tensor<1, dim> normal = area_vector<dim>(facet);
+      if (const double area = normal.norm(); area > 0)
+        normal /= area;
+      Point<dim> centre;
+      for (const Point<dim> &x : facet)
         {
-          Point<dim> centre;
-          for (const Point<dim> &p : surface.facet_points(k))
-            centre += p / dim;
-          x.push_back(centre);
+          points.push_back({x, normal});
+          centre += x / dim;
         }
-      return x;
+      points.push_back({centre, normal});
     }
 
-    /// The same of the liquids at t = 0 on the lattice of an octree: no mesh is needed for that.
+    /// Those of the liquids at t = 0 on the lattice of an octree: no mesh is needed for that.
     template <int dim>
-    std::vector<Point<dim>>
-    sample_points(const std::shared_ptr<const Octree<dim>> &octree, const Scene<dim> &scene)
+    std::vector<BandPoint<dim>>
+    initial_surface(const std::shared_ptr<const Octree<dim>> &octree, const Scene<dim> &scene)
     {
       const MeshCells<dim> mesh = LatticeMesh<dim>(octree).take_cells();
       const unsigned int   rank = Utilities::MPI::this_mpi_process(octree->communicator());
       std::vector<double>  phi;
       for (const auto &vertex : mesh.vertices)
         phi.push_back(scene.liquid_distance(vertex.position));
-      std::vector<Point<dim>> x;
+      std::vector<BandPoint<dim>> points;
       for (const auto &cell : mesh.cells)
         {
           VertexValues<dim> values;
@@ -48,18 +49,45 @@ namespace treacle
           const Facets<dim> facets = surface_facets<dim>(values);
           for (unsigned int k = 0; k < facets.n && cell.owner == rank; ++k)
             {
-              Point<dim> centre;
-              for (const auto &[a, b] : facets.facet[k])
+              std::array<Point<dim>, dim> facet;
+              for (unsigned int i = 0; i < dim; ++i)
                 {
+                  const auto [a, b]      = facets.facet[k][i];
                   const Point<dim> &from = mesh.vertices[cell.vertex[a]].position;
                   const Point<dim> &to   = mesh.vertices[cell.vertex[b]].position;
-                  x.push_back(from + edge_zero(values[a], values[b]) * (to - from));
-                  centre += x.back() / dim;
+                  facet[i]               = from + edge_zero(values[a], values[b]) * (to - from);
                 }
-              x.push_back(centre);
+              append<dim>(points, facet);
             }
         }
-      return x;
+      return points;
+    }
+
+    /// The places that the vertices of the surface would pass in the steps after the next, so
+    /// that a new mesh serves for some: at s leaves a step for 3 / sqrt(s) steps. A mesh costs
+    /// about as much as a step, (1 + 1/n) (A + B n s) for each of n, and B is about A/9.
+    template <int dim>
+    void
+    append_way_ahead(std::vector<BandPoint<dim>>   &points,
+                     const Mesh<dim>               &mesh,
+                     const std::vector<Point<dim>> &now,
+                     const std::vector<Point<dim>> &next)
+    {
+      double furthest = 0;
+      for (unsigned int i = 0; i < now.size(); ++i)
+        furthest = std::max(furthest, now[i].distance(next[i]));
+      const double h = mesh.finest_size();
+      const double s = Utilities::MPI::max(furthest, mesh.communicator()) / h;
+      if (s == 0 || s > 9)
+        return;
+      const double n_steps = 3 / std::sqrt(s);
+      for (unsigned int i = 0; i < now.size(); ++i)
+        {
+          const Tensor<1, dim> way      = n_steps * (next[i] - now[i]);
+          const unsigned int   n_points = std::ceil(way.norm() / h);
+          for (unsigned int k = 1; k <= n_points; ++k)
+            points.push_back({next[i] + way * k / n_points, {}});
+        }
     }
 
     /// Centre of a leaf of an octree that is still growing.
@@ -86,6 +114,13 @@ namespace treacle
       return std::abs(distance) < half_diagonal + margin;
     }
 
+    template <int dim>
+    BandWidths
+    widths(const OctreeParameters<dim> &prm)
+    {
+      return {prm.band_width + 0.5, prm.air_band_width + 0.5};
+    }
+
     /// Leaves that the band touches, or that are as near to an emitter.
     template <int dim>
     std::vector<bool>
@@ -105,6 +140,26 @@ namespace treacle
                       scene.distance_to_emitter_boundary(centre<dim>(prm, leaves[i]), time),
                       prm.band_width * prm.finest_size());
       return result;
+    }
+
+    /// Do finest leaves make a difference there? Not in solids from a leaf or two on; only
+    /// signs tell, for the distance of an expression need not be one.
+    template <int dim>
+    std::function<bool(const Point<dim> &)>
+    outside_solids(const Scene<dim> &scene, const double h, const double time)
+    {
+      if (!scene.has_solids())
+        return [](const Point<dim> &) { return true; };
+      return [&scene, h, time](const Point<dim> &x) {
+        bool is_open = scene.solid_distance(x, time) >= 0;
+        for (unsigned int k = 0; k < 2 * dim && !is_open; ++k)
+          {
+            Point<dim> aside = x;
+            aside[k / 2] += k % 2 == 0 ? 2 * h : -2 * h;
+            is_open = scene.solid_distance(aside, time) >= 0;
+          }
+        return is_open;
+      };
     }
 
     /// Refine where @p is_near says, inside the liquid to the interior level and
@@ -148,6 +203,7 @@ namespace treacle
   {
     const LevelSet<dim> phi = [&](const std::vector<Point<dim>> &x) {
       std::vector<double> values;
+      values.reserve(x.size());
       for (const Point<dim> &p : x)
         values.push_back(scene.liquid_distance(p));
       return values;
@@ -167,7 +223,10 @@ namespace treacle
         return near;
       },
       phi);
-    const Band<dim> band(*octree, sample_points<dim>(octree, scene), prm.band_width);
+    const Band<dim> band(*octree,
+                         initial_surface<dim>(octree, scene),
+                         widths(prm),
+                         outside_solids(scene, prm.finest_size(), 0.));
     return std::make_shared<const Mesh<dim>>(grow<dim>(
       comm, prm, [&](const auto &leaves) { return near_surface(band, prm, scene, 0., leaves); }, phi));
   }
@@ -184,14 +243,18 @@ namespace treacle
     const Mesh<dim> &mesh = *state.mesh;
     if (!mesh.is_lattice())
       return state.mesh;
-    const Octree<dim>            &octree = mesh.octree();
-    std::vector<Point<dim>> moved =
-      advection.move_surface(sample_points(surface.facets));
+    const Octree<dim>            &octree  = mesh.octree();
+    const std::vector<Point<dim>> next    = advection.move_surface(surface.facets.positions);
+    const auto is_needed = outside_solids(scene, mesh.finest_size(), state.time + dt);
+    std::vector<BandPoint<dim>>   points;
+    for (unsigned int k = 0; k < surface.facets.facets.size(); ++k)
+      append<dim>(points, surface.facets.facet_points(k, next));
     for (const Marker<dim> &marker : markers)
-      moved.push_back(marker.position);
-    if (Band<dim>(octree, moved, 1).is_finest_in(octree))
+      points.push_back({marker.position, {}});
+    if (Band<dim>(octree, points, {}, is_needed).is_finest_in(octree))
       return state.mesh;
-    const Band<dim> band(octree, moved, octree.parameters().band_width);
+    append_way_ahead(points, mesh, surface.facets.positions, next);
+    const Band<dim> band(octree, points, widths(octree.parameters()), is_needed);
     return std::make_shared<const Mesh<dim>>(grow<dim>(
       mesh.communicator(),
       octree.parameters(),

@@ -8,14 +8,33 @@
 
 namespace treacle
 {
-  /// The finest cubes of the octree's lattice within some layers of a set of points,
-  /// on all ranks together.
+  /// A point to lay a band around: of a surface with its unit normal out of the liquid, or
+  /// any other, with zero.
+  template <int dim>
+  struct BandPoint
+  {
+    Point<dim>     position;
+    Tensor<1, dim> outward;
+  };
+
+  /// How far a band goes, between the centres of cubes, in finest leaves.
+  struct BandWidths
+  {
+    double inner = 0; ///< against the normal
+    double outer = 0; ///< along it
+  };
+
+  /// The finest cubes of the octree's lattice around a set of points, on all ranks together:
+  /// those that touch the cube of a point, and those within its widths.
   template <int dim>
   class Band
   {
   public:
-    /// @p points of this rank; @p width in finest leaves.
-    Band(const Octree<dim> &octree, const std::vector<Point<dim>> &points, const unsigned int width);
+    /// @p points of this rank; only cubes whose centres @p is_needed.
+    Band(const Octree<dim>                             &octree,
+         const std::vector<BandPoint<dim>>             &points,
+         const BandWidths                              &widths,
+         const std::function<bool(const Point<dim> &)> &is_needed);
 
     /// Is every cube a leaf of the finest level? Collective.
     bool
@@ -26,9 +45,9 @@ namespace treacle
     touches(const std::vector<Leaf<dim>> &leaves) const;
 
   private:
-    MPI_Comm                       comm;
-    unsigned int                   finest_level;
-    std::vector<LatticePoint<dim>> cubes; ///< lowest corners, sorted
+    MPI_Comm               comm;
+    unsigned int           finest_level;
+    std::vector<VertexKey> cubes; ///< lowest corners, sorted
   };
 } // namespace treacle
 

@@ -23,6 +23,7 @@ namespace treacle
     unsigned int interior_level = 4;
     unsigned int air_level      = 3;
     unsigned int band_width     = 3;
+    unsigned int air_band_width = 1;
 
     /// Throws a UserError where no octree fits.
     void

@@ -29,9 +29,16 @@ namespace treacle
     std::array<Point<dim>, dim>
     facet_points(const unsigned int facet) const
     {
+      return facet_points(facet, positions);
+    }
+
+    /// Where its vertices are elsewhere.
+    std::array<Point<dim>, dim>
+    facet_points(const unsigned int facet, const std::vector<Point<dim>> &elsewhere) const
+    {
       std::array<Point<dim>, dim> x;
       for (unsigned int i = 0; i < dim; ++i)
-        x[i] = positions[facets[facet][i]];
+        x[i] = elsewhere[facets[facet][i]];
       return x;
     }
   };
