@@ -25,7 +25,8 @@ namespace treacle
                         {"level set", Method::level_set}});
     prm.add_parameter("Markers per cell",
                       markers_per_cell,
-                      "Mean number of markers in a cell that the surface cuts.",
+                      "Mean number of markers in a cell that the surface cuts: by default 12 in 2D, 3 "
+                      "in 3D, where a leaf has more such cells.",
                       Patterns::Integer(1, 1000));
     prm.add_parameter("Volume correction",
                       volume_correction,

@@ -25,7 +25,7 @@ namespace treacle
     struct Parameters
     {
       Method       method            = Method::marker_level_set;
-      unsigned int markers_per_cell  = 12;
+      unsigned int markers_per_cell  = dim == 2 ? 12 : 3;
       bool         volume_correction = true;
 
       void
