@@ -47,12 +47,14 @@ namespace treacle
       return combined(1 + part, old.v, -part, part == 0 ? old.v : *old.before->v);
     }
 
-    /// The faces that may carry liquid, for a node of them is closer to it than @p reach.
+    /// The faces that may carry liquid: a node of them is in it, or will be once markers have
+    /// corrected phi.
     template <int dim>
     std::vector<LocalIndex>
-    faces_within(const State<dim> &state, const double reach)
+    faces_that_matter(const State<dim> &state)
     {
-      const Mesh<dim>        &mesh = *state.mesh;
+      const Mesh<dim>        &mesh  = *state.mesh;
+      const double            reach = 2 * mesh.surface_size();
       std::vector<LocalIndex> faces;
       for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
         if (std::any_of(mesh.face_nodes[f].begin(), mesh.face_nodes[f].end(), [&](const auto node) {
@@ -228,7 +230,7 @@ namespace treacle
   Advection<dim>::advance_faces(State<dim> &state, const double reach) const
   {
     const Mesh<dim>              &mesh  = *state.mesh;
-    const std::vector<LocalIndex> faces = faces_within(state, reach);
+    const std::vector<LocalIndex> faces = faces_that_matter(state);
     std::vector<Point<dim>>       x;
     Guesses                       guesses;
     for (const LocalIndex f : faces)
