@@ -52,11 +52,8 @@ namespace treacle
                    "Viscosity",
                    *hybrid.stiff.matrix,
                    system.stress_free_motions(stiffness))
+    , faces(system, pressure, hybrid)
     , viscous_schur(viscous_schur_complement())
-    , v(domain.mesh.nodes)
-    , q(domain.mesh.zeros(domain.mesh.cells))
-    , flux(domain.mesh.zeros(domain.mesh.faces))
-    , force(domain.mesh.zeros(domain.mesh.faces))
     , z_viscous(pressure.rows(), domain.mesh.communicator())
   {
     // over its diagonal most of it has eigenvalues from 0.05 to 2, whatever mesh and viscosity are
@@ -91,47 +88,10 @@ namespace treacle
 
   template <int dim>
   void
-  Stokes<dim>::scatter(const Pair &x) const
-  {
-    const auto &nodes = system.nodes();
-    for (unsigned int i = 0; i < nodes.size(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-        v.component[d].local_element(nodes[i]) =
-          domain.constrained[nodes[i]] >> d & 1 ? 0. : x.block(0).local_element(dim * i + d);
-    v.update_ghost_values();
-    pressure.to_cells(x.block(1), q);
-  }
-
-  template <int dim>
-  void
   Stokes<dim>::vmult(Pair &y, const Pair &x) const
   {
-    const Mesh<dim> &mesh = domain.mesh;
     hybrid.stiff.matrix->vmult(y.block(0), x.block(0));
-    scatter(x);
-    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
-      {
-        double push = 0, u = 0; // B^T q, s P v + (1 - s) M^-1 B^T q
-        if (domain.is_liquid_face(f) && pressure.is_unknown(f))
-          {
-            const double s = hybrid.share[f];
-            push           = pressure.force(f, q);
-            u = s * face_velocity(mesh, v, f) + (1 - s) / domain.face_mass[f] * push;
-          }
-        force.local_element(f) = push;
-        flux.local_element(f)  = u;
-      }
-    force.update_ghost_values();
-    flux.update_ghost_values();
-    const auto  pushed = system.face_momentum(force, hybrid.share);
-    const auto &nodes  = system.nodes();
-    for (unsigned int i = 0; i < nodes.size(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-        if ((domain.constrained[nodes[i]] >> d & 1) == 0)
-          y.block(0).local_element(dim * i + d) -= pushed[nodes[i]][d];
-    const auto &cells = pressure.cells();
-    for (unsigned int i = 0; i < cells.size(); ++i)
-      y.block(1).local_element(i) = -pressure.linear_outflow(cells[i], flux);
+    faces.apply(y.block(0), y.block(1), x.block(0), x.block(1));
   }
 
   template <int dim>
@@ -155,7 +115,9 @@ namespace treacle
     b.collect_sizes();
 
     // (1 - s) u* + s P v of the prescribed components alone
-    const auto &nodes = system.nodes();
+    const auto     &nodes = system.nodes();
+    NodeVector<dim> v(mesh.nodes);
+    Vector          flux = mesh.zeros(mesh.faces);
     for (unsigned int i = 0; i < nodes.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
         v.component[d].local_element(nodes[i]) =
@@ -179,6 +141,7 @@ namespace treacle
   Stokes<dim>::set_faces(State<dim> &state, const Pair &x, Reactions<dim> &reactions) const
   {
     const Mesh<dim> &mesh = domain.mesh;
+    Vector           q    = mesh.zeros(mesh.cells);
     pressure.to_cells(x.block(1), q);
     system.to_nodes(x.block(0), state.v);
     pressure.push(q, state.u);

@@ -110,18 +110,6 @@ namespace treacle
   }
 
   template <int dim>
-  double
-  PressureSystem<dim>::linear_outflow(const LocalIndex c, const Vector &u) const
-  {
-    double flux = 0;
-    for (const LocalIndex f : domain.mesh.cell_faces[c])
-      if (domain.is_liquid_face(f))
-        flux += (domain.mesh.face_cells[f][0] == c ? 1 : -1) * domain.open_fraction[f] *
-                domain.mesh.face_area[f] * u.local_element(f);
-    return flux;
-  }
-
-  template <int dim>
   void
   PressureSystem<dim>::set_walls(Vector &u) const
   {

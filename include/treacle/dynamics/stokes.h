@@ -4,8 +4,7 @@
 #ifndef treacle_dynamics_stokes_h
 #define treacle_dynamics_stokes_h
 
-#include <treacle/pressure/pressure_system.h>
-#include <treacle/viscosity/hybrid.h>
+#include <treacle/dynamics/stokes_faces.h>
 #include <treacle/viscosity/reactions.h>
 
 #include <deal.II/lac/la_parallel_block_vector.h>
@@ -59,10 +58,6 @@ namespace treacle
     std::unique_ptr<const TrilinosWrappers::SparseMatrix>
     viscous_schur_complement() const;
 
-    /// The unknowns of v, zero where it is prescribed, into nodes; of q into cells.
-    void
-    scatter(const Pair &x) const;
-
     void
     vmult(Pair &y, const Pair &x) const;
 
@@ -91,11 +86,10 @@ namespace treacle
     const typename NodeSystem<dim>::Stiffness stiffness;
     const Hybrid<dim>        hybrid;
     const LinearSolver       nodes_solver;
+    const StokesFaces<dim>   faces;
     const std::unique_ptr<const TrilinosWrappers::SparseMatrix> viscous_schur;
     TrilinosWrappers::PreconditionChebyshev                     viscous_schur_inverse;
-    /// scratch
-    mutable NodeVector<dim> v;
-    mutable Vector          q, flux, force, z_viscous;
+    mutable Vector                                              z_viscous; ///< scratch
   };
 } // namespace treacle
 

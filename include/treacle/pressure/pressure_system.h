@@ -80,10 +80,6 @@ namespace treacle
     static double
     outflow(const LiquidDomain<dim> &domain, const LocalIndex cell, const Vector &u);
 
-    /// The same through liquid faces alone.
-    double
-    linear_outflow(const LocalIndex cell, const Vector &u) const;
-
     /// u on the faces that solids close, and ghosts.
     void
     set_walls(Vector &u) const;

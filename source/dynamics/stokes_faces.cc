@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/dynamics/stokes_faces.h>
+
+namespace treacle
+{
+  namespace
+  {
+    /// Numbers those that are asked for, in the order in which they are first.
+    class Places
+    {
+    public:
+      Places(std::vector<LocalIndex> &members, const unsigned int n)
+        : members(members)
+        , place(n, invalid)
+      {}
+
+      LocalIndex
+      operator()(const LocalIndex member)
+      {
+        if (place[member] == invalid)
+          {
+            place[member] = members.size();
+            members.push_back(member);
+          }
+        return place[member];
+      }
+
+    private:
+      std::vector<LocalIndex> &members;
+      std::vector<LocalIndex>  place;
+    };
+  } // namespace
+
+  template <int dim>
+  StokesFaces<dim>::StokesFaces(const NodeSystem<dim>     &system,
+                                const PressureSystem<dim> &pressure,
+                                const Hybrid<dim>         &hybrid)
+    : system(system)
+    , pressure(pressure)
+    , node_values(system.domain.mesh.nodes)
+    , cell_values(system.domain.mesh.zeros(system.domain.mesh.cells))
+  {
+    const LiquidDomain<dim> &domain = system.domain;
+    const Mesh<dim>         &mesh   = domain.mesh;
+    Places                   node_place(nodes, mesh.node_position.size());
+    Places                   cell_place(cells, mesh.cell_nodes.size());
+    // the rows first
+    for (const LocalIndex node : system.nodes())
+      node_place(node);
+    for (const LocalIndex cell : pressure.cells())
+      cell_place(cell);
+    for (LocalIndex f = 0; f < mesh.face_cells.size(); ++f)
+      {
+        const auto &sides = mesh.face_cells[f];
+        const bool  is_ours =
+          std::any_of(sides.begin(), sides.end(), [&](const LocalIndex c) { return c < mesh.n_owned_cells(); }) ||
+          std::any_of(mesh.face_nodes[f].begin(), mesh.face_nodes[f].end(), [&](const LocalIndex node) {
+            return node < mesh.n_owned_nodes();
+          });
+        if (!is_ours || !domain.is_liquid_face(f) || !pressure.is_unknown(f))
+          continue;
+        const double s = hybrid.share[f];
+        Face         face;
+        for (unsigned int i = 0; i < dim; ++i)
+          face.nodes[i] = node_place(mesh.face_nodes[f][i]);
+        for (unsigned int i = 0; i < 2; ++i)
+          face.cells[i] = cell_place(sides[i]);
+        face.flux     = domain.open_fraction[f] * mesh.face_area[f];
+        face.mobility = (1 - s) / domain.face_mass[f];
+        face.share    = s / dim * mesh.face_normal[f];
+        faces.push_back(face);
+      }
+    v.resize(nodes.size());
+    pushed.resize(nodes.size());
+    q.resize(cells.size());
+    out.resize(cells.size());
+  }
+
+  template <int dim>
+  void
+  StokesFaces<dim>::scatter(const Vector &x_v, const Vector &x_q) const
+  {
+    for (unsigned int i = 0; i < system.nodes().size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        node_values.component[d].local_element(nodes[i]) =
+          is_free(i, d) ? x_v.local_element(dim * i + d) : 0.;
+    node_values.update_ghost_values();
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      v[i] = node_values.value(nodes[i]);
+    pressure.to_cells(x_q, cell_values);
+    for (unsigned int i = 0; i < cells.size(); ++i)
+      q[i] = cell_values.local_element(cells[i]);
+  }
+
+  template <int dim>
+  void
+  StokesFaces<dim>::apply(Vector       &momentum,
+                          Vector       &outflow,
+                          const Vector &x_v,
+                          const Vector &x_q) const
+  {
+    scatter(x_v, x_q);
+    std::fill(pushed.begin(), pushed.end(), Tensor<1, dim>());
+    std::fill(out.begin(), out.end(), 0.);
+    for (const Face &face : faces)
+      {
+        const double   push = face.flux * (q[face.cells[0]] - q[face.cells[1]]); // B^T q
+        Tensor<1, dim> sum;
+        for (const LocalIndex node : face.nodes)
+          {
+            sum += v[node];
+            pushed[node] += push * face.share;
+          }
+        const double flux = face.flux * (face.share * sum + face.mobility * push);
+        out[face.cells[0]] += flux;
+        out[face.cells[1]] -= flux;
+      }
+    for (unsigned int i = 0; i < system.nodes().size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (is_free(i, d))
+          momentum.local_element(dim * i + d) -= pushed[i][d];
+    for (unsigned int i = 0; i < pressure.cells().size(); ++i)
+      outflow.local_element(i) = -out[i];
+  }
+
+  template class StokesFaces<2>;
+  template class StokesFaces<3>;
+} // namespace treacle
