@@ -66,9 +66,8 @@ namespace treacle
       ML_set_random_seed(1 + Utilities::MPI::this_mpi_process(matrix.get_mpi_communicator()));
       list.set("prec type", "MGW"); // MGV: iterations grow with the level
       list.set("smoother: type", "Chebyshev");
-      // a second sweep pays where rotations, or pressures, are smoothed; doc/method.md
-      const bool knows_rotations = null_space.n_vectors > null_space.n_components;
-      list.set("smoother: sweeps", knows_rotations || null_space.n_vectors == 0 ? 2 : 1);
+      // a second sweep pays where rotations are smoothed; doc/method.md
+      list.set("smoother: sweeps", null_space.n_vectors > null_space.n_components ? 2 : 1);
       list.set("smoother: Chebyshev alpha", 10.);
       list.set("aggregation: type", "Uncoupled");
       list.set("aggregation: threshold", 1e-4);
