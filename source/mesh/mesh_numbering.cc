@@ -3,13 +3,12 @@
 
 #include <treacle/mesh/face_normal_element.h>
 #include <treacle/mesh/mesh_numbering.h>
+#include <treacle/mesh/rank_triangulation.h>
 
-#include <deal.II/distributed/fully_distributed_tria.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/grid/reference_cell.h>
-#include <deal.II/grid/tria_description.h>
 
 namespace treacle
 {
@@ -25,64 +24,6 @@ namespace treacle
       for (unsigned int v = 0; v < dim; ++v)
         opposite -= reference.face_to_cell_vertices(f, v, 1);
       return opposite;
-    }
-
-    template <int dim>
-    CellData<dim>
-    coarse_cell(const typename MeshCells<dim>::Cell &cell)
-    {
-      CellData<dim> result;
-      result.vertices.assign(cell.vertex.begin(), cell.vertex.end());
-      return result;
-    }
-
-    /// Walls are known to the mesh: deal.II need not.
-    template <int dim>
-    TriangulationDescription::CellData<dim>
-    cell_info(const typename MeshCells<dim>::Cell &cell)
-    {
-      TriangulationDescription::CellData<dim> info;
-      info.id                 = CellId(cell.id, {}).template to_binary<dim>();
-      info.subdomain_id       = cell.owner;
-      info.level_subdomain_id = cell.owner;
-      info.manifold_id        = numbers::flat_manifold_id;
-      info.manifold_line_ids.fill(numbers::flat_manifold_id);
-      info.manifold_quad_ids.fill(numbers::flat_manifold_id);
-      return info;
-    }
-
-    /// Its cells have the indices of the mesh's.
-    template <int dim>
-    std::unique_ptr<Triangulation<dim>>
-    triangulate(const MPI_Comm &comm, const MeshCells<dim> &mesh)
-    {
-      TriangulationDescription::Description<dim, dim> description;
-      for (const auto &vertex : mesh.vertices)
-        description.coarse_cell_vertices.push_back(vertex.position);
-      description.coarse_cells.reserve(mesh.cells.size());
-      for (const auto &cell : mesh.cells)
-        description.coarse_cells.push_back(coarse_cell<dim>(cell));
-      if (Utilities::MPI::n_mpi_processes(comm) == 1)
-        {
-          // it sorts no cells by their ids, which is half of the work
-          auto triangulation = std::make_unique<Triangulation<dim>>();
-          triangulation->create_triangulation(description.coarse_cell_vertices,
-                                              description.coarse_cells,
-                                              SubCellData());
-          return triangulation;
-        }
-      description.comm      = comm;
-      description.settings  = TriangulationDescription::Settings::default_setting;
-      description.smoothing = Triangulation<dim>::none;
-      description.cell_infos.resize(1);
-      for (const auto &cell : mesh.cells)
-        {
-          description.coarse_cell_index_to_coarse_cell_id.push_back(cell.id);
-          description.cell_infos[0].push_back(cell_info<dim>(cell));
-        }
-      auto triangulation = std::make_unique<parallel::fullydistributed::Triangulation<dim>>(comm);
-      triangulation->create_triangulation(description);
-      return triangulation;
     }
 
     template <int dim>
@@ -123,8 +64,8 @@ namespace treacle
     , cell_nodes(mesh.cells.size())
     , cell_faces(mesh.cells.size())
   {
-    const auto      triangulation = triangulate(comm, mesh);
-    DoFHandler<dim> node_dofs(*triangulation), face_dofs(*triangulation);
+    const RankTriangulation<dim> triangulation(comm, mesh);
+    DoFHandler<dim>              node_dofs(triangulation), face_dofs(triangulation);
     node_dofs.distribute_dofs(FE_SimplexP<dim>(1));
     face_dofs.distribute_dofs(FaceNormalElement<dim>());
     nodes = partitioner_of(comm, node_dofs);
@@ -140,7 +81,7 @@ namespace treacle
           const unsigned int i = accessor->index();
           cell[i]              = cells->global_to_local(mesh.cells[i].id);
           accessor->get_dof_indices(of_nodes);
-          typename DoFHandler<dim>::active_cell_iterator(triangulation.get(), 0, i, &face_dofs)
+          typename DoFHandler<dim>::active_cell_iterator(&triangulation, 0, i, &face_dofs)
             ->get_dof_indices(of_faces);
           for (unsigned int k = 0; k <= dim; ++k)
             {
