@@ -27,6 +27,18 @@ namespace treacle
       number[i] = ids.local_element(i) > 0 ?
                     static_cast<GlobalIndex>(ids.local_element(i)) - 1 :
                     numbers::invalid_dof_index;
+    column.assign(number.size(), invalid);
+    for (unsigned int i = 0; i < n_owned; ++i)
+      column[owned[i]] = i;
+    // ghosts are in the order of their global indices, and so are their numbers
+    LocalIndex next = n_owned;
+    for (LocalIndex i = partitioner->locally_owned_size(); i < number.size(); ++i)
+      if (number[i] != numbers::invalid_dof_index)
+        {
+          column[i] = next++;
+          for (unsigned int d = 0; d < n_components; ++d)
+            ghost_columns.push_back(n_components * number[i] + d);
+        }
     rows.set_size(n_components * Utilities::MPI::sum(n_owned, comm));
     rows.add_range(n_components * first, n_components * (first + n_owned));
   }

@@ -18,12 +18,14 @@ namespace treacle
 
   template <int dim>
   void
-  PressureSystem<dim>::append_row(const LocalIndex          c,
-                                  const FaceFunction       &mobility,
-                                  std::vector<GlobalIndex> &columns,
-                                  std::vector<double>      &values) const
+  PressureSystem<dim>::set_row(const LocalIndex    c,
+                               const FaceFunction &mobility,
+                               const double        diagonal,
+                               MatrixRow          &row) const
   {
     const Mesh<dim> &mesh = domain.mesh;
+    double           sum  = diagonal;
+    row.clear();
     for (const LocalIndex f : mesh.cell_faces[c])
       if (domain.is_liquid_face(f))
         {
@@ -31,15 +33,13 @@ namespace treacle
           const double     k    = flux * flux * mobility(f);
           const LocalIndex other =
             mesh.face_cells[f][0] == c ? mesh.face_cells[f][1] : mesh.face_cells[f][0];
-          values[0] += k;
-          if (numbering.number[other] != numbers::invalid_dof_index)
-            {
-              columns.push_back(numbering.number[other]);
-              values.push_back(-k);
-            }
+          sum += k;
+          if (numbering.column[other] != invalid)
+            row.emplace_back(numbering.column[other], -k);
         }
-    if (values[0] == 0) // walled in on all sides
-      values[0] = 1;
+    // 1 where it is walled in on all sides
+    row.emplace_back(numbering.column[c], sum == 0 ? 1. : sum);
+    std::sort(row.begin(), row.end());
   }
 
   template <int dim>
@@ -47,23 +47,17 @@ namespace treacle
   PressureSystem<dim>::assemble(const FaceFunction        &mobility,
                                 const std::vector<double> &diagonal) const
   {
-    auto matrix = std::make_unique<TrilinosWrappers::SparseMatrix>(
-      rows(),
-      rows(),
-      domain.mesh.communicator(),
-      std::vector<unsigned int>(cells().size(), dim + 2));
-    std::vector<GlobalIndex> columns;
-    std::vector<double>      values;
+    MatrixRows matrix(domain.mesh.communicator(),
+                      rows(),
+                      numbering.ghost_columns,
+                      std::vector<unsigned int>(cells().size(), dim + 2));
+    MatrixRow  row;
     for (unsigned int i = 0; i < cells().size(); ++i)
       {
-        const GlobalIndex row = numbering.number[cells()[i]];
-        columns.assign(1, row);
-        values.assign(1, diagonal[i]);
-        append_row(cells()[i], mobility, columns, values);
-        matrix->set(row, columns.size(), columns.data(), values.data(), false);
+        set_row(cells()[i], mobility, diagonal[i], row);
+        matrix.insert(i, row);
       }
-    matrix->compress(VectorOperation::insert);
-    return matrix;
+    return matrix.take();
   }
 
   template <int dim>

@@ -98,9 +98,27 @@ namespace treacle
 
   template <int dim>
   NodeVector<dim>
-  Advection<dim>::velocity_at_end() const
+  Advection<dim>::at_nodes_of(const Mesh<dim> &mesh, const NodeVector<dim> &v) const
   {
-    return velocity_after(1, old, difference);
+    if (&mesh == old.mesh.get())
+      return combined(1, v, 0, v);
+    NodeVector<dim>             result(mesh.nodes);
+    std::vector<NodeField<dim>> fields;
+    for (const Vector &component : v.component)
+      fields.push_back({&component});
+    const std::vector<double> values = Tracer<dim>(*old.mesh).evaluate(owned_nodes(mesh), fields);
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      for (unsigned int d = 0; d < dim; ++d)
+        result.component[d].local_element(node) = values[dim * node + d];
+    result.update_ghost_values();
+    return result;
+  }
+
+  template <int dim>
+  NodeVector<dim>
+  Advection<dim>::velocity_at_end(const Mesh<dim> &mesh) const
+  {
+    return at_nodes_of(mesh, velocity_after(1, old, difference));
   }
 
   template <int dim>
@@ -176,21 +194,7 @@ namespace treacle
   VelocityBefore<dim>
   Advection<dim>::velocity_before(const Mesh<dim> &mesh) const
   {
-    VelocityBefore<dim> before{dt, NodeVector<dim>(mesh.nodes), {}};
-    if (&mesh == old.mesh.get())
-      *before.v = old.v;
-    else
-      {
-        std::vector<NodeField<dim>> fields;
-        for (const Vector &component : old.v.component)
-          fields.push_back({&component});
-        const std::vector<double> v = Tracer<dim>(*old.mesh).evaluate(owned_nodes(mesh), fields);
-        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-          for (unsigned int d = 0; d < dim; ++d)
-            before.v->component[d].local_element(node) = v[dim * node + d];
-      }
-    before.v->update_ghost_values();
-    return before;
+    return {dt, at_nodes_of(mesh, old.v), {}};
   }
 
   template <int dim>

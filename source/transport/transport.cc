@@ -43,19 +43,6 @@ namespace treacle
     return {rebuilt, emitted};
   }
 
-  namespace
-  {
-    /// The velocity for the next solves to begin with: as steady as it was before.
-    template <int dim>
-    NodeVector<dim>
-    first_guess(const State<dim> &old, const State<dim> &next, const Advection<dim> &advection)
-    {
-      if (next.mesh == old.mesh)
-        return advection.velocity_at_end();
-      return next.before ? *next.before->v : NodeVector<dim>(next.mesh->nodes);
-    }
-  } // namespace
-
   template <int dim>
   std::unique_ptr<State<dim>>
   Transport<dim>::carry(const State<dim>                       &old,
@@ -66,7 +53,8 @@ namespace treacle
     auto next = std::make_unique<State<dim>>(advection.advance(mesh, reach));
     if (remembers(old.time))
       next->before = advection.velocity_before(*mesh);
-    next->v = first_guess(old, *next, advection);
+    // the next solves begin with it
+    next->v = advection.velocity_at_end(*mesh);
     // a state that is moved may keep its old ghosts
     next->phi.update_ghost_values();
     next->u.update_ghost_values();

@@ -39,6 +39,9 @@ namespace treacle
     std::vector<LocalIndex>     columns; ///< nodes, that of the row first
     std::vector<Tensor<2, dim>> blocks;
     Tensor<1, dim>              wall_force;
+    /// Columns of the numbering, ascending, and places in the list of columns.
+    std::vector<std::pair<LocalIndex, unsigned int>> order;
+    MatrixRow                                        entries; ///< scratch, of one component
 
     void
     start(const LocalIndex node)
@@ -61,6 +64,15 @@ namespace treacle
           blocks.emplace_back();
         }
       return blocks[slot[node]];
+    }
+
+    void
+    sort(const std::vector<LocalIndex> &column)
+    {
+      order.clear();
+      for (unsigned int k = 0; k < columns.size(); ++k)
+        order.emplace_back(column[columns[k]], k);
+      std::sort(order.begin(), order.end());
     }
 
   private:
@@ -148,37 +160,38 @@ namespace treacle
 
   template <int dim>
   void
-  NodeSystem<dim>::insert(const Row         &row,
-                          const unsigned int i,
-                          const bool         decoupled,
-                          Assembled         &result) const
+  NodeSystem<dim>::insert(Row                &row,
+                          const unsigned int  i,
+                          const bool          decoupled,
+                          Vector             &shift,
+                          MatrixRows         &matrix) const
   {
     const auto is_constrained = [&](const LocalIndex node, const unsigned int d) {
       return (domain.constrained[node] >> d & 1) != 0;
     };
-    const LocalIndex         node = row.columns[0];
-    std::vector<GlobalIndex> indices;
-    std::vector<double>      values;
+    const LocalIndex node = row.columns[0];
+    row.sort(numbering.column);
     for (unsigned int a = 0; a < dim; ++a)
       {
-        const GlobalIndex index = dim * number[node] + a;
-        double           &shift = result.shift.local_element(dim * i + a);
         // 1 for a component that nothing holds, lest the matrix be singular
         const double diagonal = row.blocks[0][a][a] > 0 ? row.blocks[0][a][a] : 1;
-        indices.assign(1, index);
-        values.assign(1, diagonal);
-        if (!is_constrained(node, a))
-          shift += row.wall_force[a];
-        for (unsigned int k = 0; k < row.columns.size() && !is_constrained(node, a); ++k)
+        row.entries.clear();
+        if (is_constrained(node, a))
+          row.entries.emplace_back(dim * i + a, diagonal);
+        else
+          shift.local_element(dim * i + a) += row.wall_force[a];
+        for (unsigned int k = 0; k < row.order.size() && !is_constrained(node, a); ++k)
           for (unsigned int b = decoupled ? a : 0; b < (decoupled ? a + 1 : dim); ++b)
-            if (const LocalIndex other = row.columns[k]; is_constrained(other, b))
-              shift -= row.blocks[k][a][b] * domain.prescribed[other][b];
-            else if (k != 0 || a != b)
-              {
-                indices.push_back(dim * number[other] + b);
-                values.push_back(row.blocks[k][a][b]);
-              }
-        result.matrix->set(index, indices.size(), indices.data(), values.data(), false);
+            {
+              const auto &[column, place] = row.order[k];
+              const LocalIndex other      = row.columns[place];
+              const double     value      = row.blocks[place][a][b];
+              if (is_constrained(other, b))
+                shift.local_element(dim * i + a) -= value * domain.prescribed[other][b];
+              else
+                row.entries.emplace_back(dim * column + b, place == 0 && a == b ? diagonal : value);
+            }
+        matrix.insert(dim * i + a, row.entries);
       }
   }
 
@@ -190,17 +203,16 @@ namespace treacle
   {
     const MPI_Comm &comm = domain.mesh.communicator();
     Assembled       result;
-    result.matrix =
-      std::make_unique<TrilinosWrappers::SparseMatrix>(rows, rows, comm, row_lengths);
     result.shift.reinit(rows, comm);
+    MatrixRows matrix(comm, rows, numbering.ghost_columns, row_lengths);
     const bool decoupled = mass != Mass::faces && stiffness.strain.empty();
     Row        row(domain.mesh.node_position.size());
     for (unsigned int i = 0; i < owned_nodes.size(); ++i)
       {
         assemble_row(mass, stiffness, face_mass, owned_nodes[i], row);
-        insert(row, i, decoupled, result);
+        insert(row, i, decoupled, result.shift, matrix);
       }
-    result.matrix->compress(VectorOperation::insert);
+    result.matrix = matrix.take();
     return result;
   }
 

@@ -25,6 +25,12 @@ namespace treacle
     std::vector<LocalIndex>  owned;  ///< active and owned
     std::vector<GlobalIndex> number; ///< of each owned or ghost entry, or invalid_dof_index
     IndexSet                 rows;   ///< of this rank, n_components for each
+
+    // -- as columns of a matrix --
+    std::vector<GlobalIndex> ghost_columns; ///< n_components for each active ghost, ascending
+    /// Of each owned or ghost entry, its place among the owned and then the ghosts that are
+    /// active, or invalid; its first column is n_components times that.
+    std::vector<LocalIndex> column;
   };
 } // namespace treacle
 

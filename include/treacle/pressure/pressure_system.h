@@ -6,6 +6,7 @@
 
 #include <treacle/pressure/closed_pockets.h>
 #include <treacle/solvers/linear_solver.h>
+#include <treacle/solvers/matrix_rows.h>
 
 namespace treacle
 {
@@ -112,12 +113,12 @@ namespace treacle
     std::unique_ptr<const TrilinosWrappers::SparseMatrix>
     projection_matrix() const;
 
-    /// Append the entries of the row of an owned cell; the diagonal is the first.
+    /// The entries of the row of an owned cell.
     void
-    append_row(const LocalIndex          cell,
-               const FaceFunction       &mobility,
-               std::vector<GlobalIndex> &columns,
-               std::vector<double>      &values) const;
+    set_row(const LocalIndex    cell,
+            const FaceFunction &mobility,
+            const double        diagonal,
+            MatrixRow          &row) const;
 
     /// q at all dual centres: beyond the surface the liquid's pressure goes on
     /// in proportion to phi, as the ghost fluid has it across a face.

@@ -55,9 +55,9 @@ namespace treacle
     std::vector<Point<dim>>
     move_surface(const std::vector<Point<dim>> &x) const;
 
-    /// At the nodes of the old mesh, continued in time to the end of the step.
+    /// The old velocity, continued in time to the end of the step, at the nodes of a mesh.
     NodeVector<dim>
-    velocity_at_end() const;
+    velocity_at_end(const Mesh<dim> &mesh) const;
 
     /// The markers after dt, still on the ranks they came from.
     std::vector<Marker<dim>>
@@ -68,6 +68,10 @@ namespace treacle
     level_set(const std::vector<Point<dim>> &x) const;
 
   private:
+    /// What is known at the nodes of the old mesh at those of another.
+    NodeVector<dim>
+    at_nodes_of(const Mesh<dim> &mesh, const NodeVector<dim> &v) const;
+
     /// Values of old node fields, by the scheme, at points from which @p velocity
     /// carries them on: [point * fields + field].
     std::vector<double>

@@ -7,6 +7,7 @@
 #include <treacle/fields/liquid_domain.h>
 #include <treacle/fields/numbering.h>
 #include <treacle/solvers/linear_solver.h>
+#include <treacle/solvers/matrix_rows.h>
 
 namespace treacle
 {
@@ -132,9 +133,13 @@ namespace treacle
                  const LocalIndex           node,
                  Row                       &row) const;
 
-    /// The rows of owned node i of nodes() into the matrix.
+    /// The rows of owned node i of nodes() into the matrix, sorted, and the shift.
     void
-    insert(const Row &row, const unsigned int i, const bool decoupled, Assembled &result) const;
+    insert(Row                &row,
+           const unsigned int  i,
+           const bool          decoupled,
+           Vector             &shift,
+           MatrixRows         &matrix) const;
 
     const Numbering                 numbering; ///< of the active nodes
     const std::vector<LocalIndex>  &owned_nodes;
