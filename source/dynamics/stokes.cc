@@ -13,6 +13,11 @@ namespace treacle
   {
     /// Of mu step over rho h^2: less than this is none.
     constexpr double least_viscosity = 1e-12;
+
+    /// Where the residual of the first guess is within so many tolerances, by the diagonal, a few
+    /// iterations with the diagonal alone cost less than hierarchies.
+    constexpr double       near_enough      = 30;
+    constexpr unsigned int most_by_diagonal = 20;
   } // namespace
 
   template <int dim>
@@ -51,14 +56,22 @@ namespace treacle
     , nodes_solver(viscosity_solver,
                    "Viscosity",
                    *hybrid.stiff.matrix,
-                   system.stress_free_motions(stiffness))
+                   [this] { return this->system.stress_free_motions(this->stiffness); })
     , faces(system, pressure, hybrid)
     , viscous_schur(viscous_schur_complement())
+    , diagonal_inverse(2)
     , z_viscous(pressure.rows(), domain.mesh.communicator())
   {
     // over its diagonal most of it has eigenvalues from 0.05 to 2, whatever mesh and viscosity are
     if (pressure.rows().size() > 0)
       viscous_schur_inverse.initialize(*viscous_schur, {8, 2., 50.});
+    diagonal_inverse.block(0).reinit(hybrid.stiff.shift, true);
+    diagonal_inverse.block(1).reinit(pressure.rows(), domain.mesh.communicator());
+    for (const GlobalIndex row : hybrid.stiff.shift.locally_owned_elements())
+      diagonal_inverse.block(0)(row) = 1 / hybrid.stiff.matrix->diag_element(row);
+    for (const GlobalIndex row : pressure.rows())
+      diagonal_inverse.block(1)(row) =
+        1 / pressure.projection().diag_element(row) + 1 / viscous_schur->diag_element(row);
   }
 
   template <int dim>
@@ -165,12 +178,69 @@ namespace treacle
   }
 
   template <int dim>
+  void
+  Stokes<dim>::scale(Pair &z, const Pair &r) const
+  {
+    for (unsigned int k = 0; k < 2; ++k)
+      {
+        z.block(k) = r.block(k);
+        z.block(k).scale(diagonal_inverse.block(k));
+      }
+  }
+
+  template <int dim>
+  std::optional<unsigned int>
+  Stokes<dim>::minres(Pair              &x,
+                      const Pair        &b,
+                      const Operator    &preconditioner,
+                      const double       squared_norm,
+                      const unsigned int most) const
+  {
+    SolverControl      control(most, prm.relative_tolerance * std::sqrt(squared_norm));
+    SolverMinRes<Pair> solver(control);
+    try
+      {
+        solver.solve(Multiplies<Pair>{[&](Pair &y, const Pair &p) { vmult(y, p); }},
+                     x,
+                     b,
+                     Multiplies<Pair>{preconditioner});
+      }
+    catch (const SolverControl::NoConvergence &)
+      {
+        return {};
+      }
+    return control.last_step();
+  }
+
+  template <int dim>
+  std::optional<unsigned int>
+  Stokes<dim>::solve_by_diagonal(Pair &x, const Pair &b) const
+  {
+    Pair r(b), z(b);
+    scale(z, b);
+    const double squared_norm = b * z;
+    vmult(r, x);
+    r.sadd(-1, 1, b);
+    scale(z, r);
+    if (!(r * z < squared_norm * std::pow(near_enough * prm.relative_tolerance, 2)))
+      return {};
+    Pair       attempt = x;
+    const auto iterations =
+      minres(attempt, b, [this](Pair &y, const Pair &p) { scale(y, p); }, squared_norm, most_by_diagonal);
+    if (iterations)
+      x = attempt;
+    return iterations;
+  }
+
+  template <int dim>
   std::optional<unsigned int>
   Stokes<dim>::solve(Pair &x, const Pair &b) const
   {
+    require_finite(b.l2_norm(), "Coupled");
+    if (const auto iterations = solve_by_diagonal(x, b))
+      return iterations;
     Pair z(b);
     precondition(z, b);
-    require_finite(b.l2_norm(), "Coupled");
     const double squared_norm = b * z;
     if (b.l2_norm() > 0 && !(squared_norm > 0)) // the preconditioner is of no use
       return {};
@@ -179,21 +249,8 @@ namespace treacle
         x = 0;
         return 0;
       }
-    SolverControl      control(prm.maximum_iterations,
-                          prm.relative_tolerance * std::sqrt(squared_norm));
-    SolverMinRes<Pair> solver(control);
-    try
-      {
-        solver.solve(Multiplies<Pair>{[&](Pair &y, const Pair &p) { vmult(y, p); }},
-                     x,
-                     b,
-                     Multiplies<Pair>{[&](Pair &y, const Pair &r) { precondition(y, r); }});
-      }
-    catch (const SolverControl::NoConvergence &)
-      {
-        return {};
-      }
-    return control.last_step();
+    return minres(
+      x, b, [this](Pair &y, const Pair &r) { precondition(y, r); }, squared_norm, prm.maximum_iterations);
   }
 
   template <int dim>

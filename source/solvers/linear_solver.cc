@@ -89,42 +89,53 @@ namespace treacle
     }
   } // namespace
 
+  namespace
+  {
+    LinearSolver::Operator
+    make_preconditioner(const Preconditioner                 kind,
+                        const TrilinosWrappers::SparseMatrix &matrix,
+                        const LinearSolver::NearNull         &near_null)
+    {
+      const auto use = [](const auto p) -> LinearSolver::Operator {
+        return [p](Vector &z, const Vector &r) { p->vmult(z, r); };
+      };
+      const auto make = [&](const auto p) {
+        p->initialize(matrix);
+        return use(p);
+      };
+      if (matrix.m() == 0)
+        return [](Vector &z, const Vector &r) { z = r; };
+      switch (kind)
+        {
+          case Preconditioner::amg:
+            {
+              // ML keeps the address of the vectors
+              const auto null_space =
+                std::make_shared<NearNullSpace>(near_null ? near_null() : NearNullSpace());
+              const auto amg = make_amg(matrix, *null_space);
+              return [amg, null_space](Vector &z, const Vector &r) { amg->vmult(z, r); };
+            }
+          case Preconditioner::incomplete_cholesky:
+            return make(std::make_shared<TrilinosWrappers::PreconditionIC>());
+          case Preconditioner::jacobi:
+            return make(std::make_shared<TrilinosWrappers::PreconditionJacobi>());
+          default:
+            return make(std::make_shared<TrilinosWrappers::PreconditionIdentity>());
+        }
+    }
+  } // namespace
+
   LinearSolver::LinearSolver(const Parameters                     &parameters,
                              const std::string                    &name,
                              const TrilinosWrappers::SparseMatrix &matrix,
-                             const NearNullSpace                  &null_space)
+                             const NearNull                       &near_null)
     : prm(parameters)
     , name(name)
-    , null_space(null_space)
     , matrix([&matrix](Vector &y, const Vector &x) { matrix.vmult(y, x); })
-  {
-    if (matrix.m() == 0)
-      {
-        preconditioner = [](Vector &z, const Vector &r) { z = r; };
-        return;
-      }
-    const auto use = [&](const auto p) {
-      preconditioner = [p](Vector &z, const Vector &r) { p->vmult(z, r); };
-    };
-    const auto make = [&](const auto p) {
-      p->initialize(matrix);
-      use(p);
-    };
-    switch (prm.preconditioner)
-      {
-        case Preconditioner::amg:
-          use(make_amg(matrix, this->null_space));
-          break;
-        case Preconditioner::incomplete_cholesky:
-          make(std::make_shared<TrilinosWrappers::PreconditionIC>());
-          break;
-        case Preconditioner::jacobi:
-          make(std::make_shared<TrilinosWrappers::PreconditionJacobi>());
-          break;
-        case Preconditioner::none:
-          make(std::make_shared<TrilinosWrappers::PreconditionIdentity>());
-      }
-  }
+    , make([kind = prm.preconditioner, &matrix, near_null] {
+      return make_preconditioner(kind, matrix, near_null);
+    })
+  {}
 
   LinearSolver::LinearSolver(const Parameters  &parameters,
                              const std::string &name,
@@ -135,6 +146,14 @@ namespace treacle
     , matrix(matrix)
     , preconditioner(preconditioner)
   {}
+
+  void
+  LinearSolver::precondition(Vector &z, const Vector &r) const
+  {
+    if (!preconditioner)
+      preconditioner = make();
+    preconditioner(z, r);
+  }
 
   void
   require_finite(const double norm, const std::string &name)
@@ -159,7 +178,10 @@ namespace treacle
     try
       {
         SolverCG<Vector> solver(control);
-        solver.solve(Multiplies<Vector>{matrix}, x, b, Multiplies<Vector>{preconditioner});
+        solver.solve(Multiplies<Vector>{matrix},
+                     x,
+                     b,
+                     Multiplies<Vector>{[&](Vector &z, const Vector &r) { precondition(z, r); }});
       }
     catch (const SolverControl::NoConvergence &failure)
       {

@@ -38,7 +38,7 @@ namespace treacle
     LinearSolver::Parameters amg = prm;
     amg.preconditioner           = LinearSolver::Preconditioner::amg;
     multigrid                    = std::make_unique<const LinearSolver>(
-      amg, "Viscosity", stiff, system.stress_free_motions(stiffness));
+      amg, "Viscosity", stiff, [this, stiffness] { return system.stress_free_motions(stiffness); });
   }
 
   namespace

@@ -37,15 +37,10 @@ namespace treacle
     if (!solver)
       {
         assembled = system.assemble(NodeSystem<dim>::Mass::faces, stiffness);
-        // they are not for nothing: none but multigrid asks for them
-        const bool is_multigrid =
-          prm.solver.preconditioner == LinearSolver::Preconditioner::amg;
-        solver = std::make_unique<LinearSolver>(prm.solver,
-                                                "Face fit",
-                                                *assembled.matrix,
-                                                is_multigrid ?
-                                                  system.stress_free_motions(stiffness) :
-                                                  NearNullSpace());
+        solver    = std::make_unique<LinearSolver>(
+          prm.solver, "Face fit", *assembled.matrix, [this] {
+            return system.stress_free_motions(stiffness);
+          });
       }
     const Vector       b = system.right_hand_side(system.face_momentum(u), assembled);
     Vector             x = system.unknowns(v);

@@ -16,12 +16,14 @@ namespace treacle
     solve(State<dim>                                &state,
           const NodeSystem<dim>                     &system,
           const typename NodeSystem<dim>::Assembled &assembled,
-          const NearNullSpace                       &null_space,
+          const typename NodeSystem<dim>::Stiffness &stiffness,
           const std::vector<Tensor<1, dim>>         &momentum,
           const bool                                 flip,
           const LinearSolver::Parameters            &prm)
     {
-      const LinearSolver solver(prm, "Viscosity", *assembled.matrix, null_space);
+      const LinearSolver solver(prm, "Viscosity", *assembled.matrix, [&] {
+        return system.stress_free_motions(stiffness);
+      });
       Vector             x          = system.unknowns(state.v);
       const unsigned int iterations = solver.solve(x, system.right_hand_side(momentum, assembled));
       const NodeVector<dim> old     = state.v;
@@ -166,7 +168,7 @@ namespace treacle
       solve(state,
             fit.system,
             fit.system.assemble(NodeSystem<dim>::Mass::faces, stiffness),
-            fit.system.stress_free_motions(stiffness),
+            stiffness,
             fit.system.face_momentum(state.u),
             flip,
             prm.solver);
@@ -192,7 +194,7 @@ namespace treacle
     const LinearSolver solver(prm.solver,
                               "Viscosity",
                               *hybrid.stiff.matrix,
-                              fit.system.stress_free_motions(stiffness));
+                              [&] { return fit.system.stress_free_motions(stiffness); });
     Vector             x          = fit.system.unknowns(state.v);
     const unsigned int iterations = solver.solve(x, hybrid.right_hand_side(state.u, state.v));
     fit.system.to_nodes(x, state.v);
@@ -218,7 +220,7 @@ namespace treacle
       solve(state,
             fit.system,
             fit.system.assemble(NodeSystem<dim>::Mass::nodes, stiffness),
-            fit.system.stress_free_motions(stiffness),
+            stiffness,
             momentum,
             prm.mapping == Mapping::node_flip,
             prm.solver);

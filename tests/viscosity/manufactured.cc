@@ -188,7 +188,7 @@ namespace
     const LinearSolver solver(body.prm.dynamics.viscosity.solver,
                               "Viscosity",
                               *assembled.matrix,
-                              system.stress_free_motions(stiffness));
+                              [&] { return system.stress_free_motions(stiffness); });
     treacle::Vector    x = system.unknowns(body.state.v);
     solver.solve(x, system.right_hand_side(momentum, assembled));
     system.to_nodes(x, body.state.v);

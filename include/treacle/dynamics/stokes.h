@@ -70,6 +70,26 @@ namespace treacle
     Pair
     first_guess(const State<dim> &state, const Pair &b) const;
 
+    using Operator = std::function<void(Pair &, const Pair &)>;
+
+    /// z = the diagonals of the preconditioner's matrices over r.
+    void
+    scale(Pair &z, const Pair &r) const;
+
+    /// Improve x to the tolerance times the norm of b, which is given; the number of
+    /// iterations, nothing where it takes more than @p most.
+    std::optional<unsigned int>
+    minres(Pair              &x,
+           const Pair        &b,
+           const Operator    &preconditioner,
+           const double       squared_norm,
+           const unsigned int most) const;
+
+    /// Where x is all but right, as in flight. Seen by the diagonal residuals look larger beside
+    /// b, for they are rougher.
+    std::optional<unsigned int>
+    solve_by_diagonal(Pair &x, const Pair &b) const;
+
     /// Improve x; the number of iterations, nothing where it stagnates.
     std::optional<unsigned int>
     solve(Pair &x, const Pair &b) const;
@@ -89,6 +109,7 @@ namespace treacle
     const StokesFaces<dim>   faces;
     const std::unique_ptr<const TrilinosWrappers::SparseMatrix> viscous_schur;
     TrilinosWrappers::PreconditionChebyshev                     viscous_schur_inverse;
+    Pair                                                        diagonal_inverse;
     mutable Vector                                              z_viscous; ///< scratch
   };
 } // namespace treacle

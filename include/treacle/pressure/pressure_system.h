@@ -98,6 +98,12 @@ namespace treacle
     unsigned int
     solve(Vector &q, Vector &b, const double scale) const;
 
+    const TrilinosWrappers::SparseMatrix &
+    projection() const
+    {
+      return *matrix;
+    }
+
     /// z = the preconditioner of the projection's matrix times r.
     void
     precondition(Vector &z, const Vector &r) const

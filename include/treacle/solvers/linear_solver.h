@@ -66,11 +66,15 @@ namespace treacle
                      const std::string &remark = "");
     };
 
-    /// Sets up the preconditioner; the matrix must outlive this object.
+    /// For multigrid alone, which asks when it needs them. Collective.
+    using NearNull = std::function<NearNullSpace()>;
+
+    /// The matrix, and what @p near_null refers to, must outlive this object. The
+    /// preconditioner is made when it is first needed: a first guess may do without.
     LinearSolver(const Parameters                     &parameters,
                  const std::string                    &name,
                  const TrilinosWrappers::SparseMatrix &matrix,
-                 const NearNullSpace                  &null_space = NearNullSpace());
+                 const NearNull                       &near_null = {});
 
     /// For an operator that is no matrix, with its preconditioner.
     LinearSolver(const Parameters  &parameters,
@@ -83,19 +87,16 @@ namespace treacle
     unsigned int
     solve(Vector &x, const Vector &b, const double scale = 0) const;
 
-    /// z = the preconditioner times r.
+    /// z = the preconditioner times r. Collective.
     void
-    precondition(Vector &z, const Vector &r) const
-    {
-      preconditioner(z, r);
-    }
+    precondition(Vector &z, const Vector &r) const;
 
   private:
-    const Parameters  prm;
-    const std::string name;
-    NearNullSpace     null_space;
-    Operator          matrix;
-    Operator          preconditioner;
+    const Parameters          prm;
+    const std::string         name;
+    Operator                  matrix;
+    std::function<Operator()> make;
+    mutable Operator          preconditioner; ///< empty before it is made
   };
 } // namespace treacle
 
