@@ -134,6 +134,7 @@ namespace treacle
   void
   Simulator<dim>::start()
   {
+    const auto section = timing.section("set-up");
     const auto mesh =
       imported ? imported : initial_mesh<dim>(comm, with_box(prm.mesh, scene), scene);
     check_bodies(*mesh, scene);

@@ -3,6 +3,7 @@
 
 #include <treacle/base/files.h>
 #include <treacle/base/timing.h>
+#include <treacle/base/work.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -89,7 +90,7 @@ namespace treacle
     for (const auto &[name, time] : sorted)
       add(name, calls.at(name), time);
     add("Total", 1, total);
-    return table + peak_memory(comm);
+    return table + peak_memory(comm) + "\n" + Work::summary(comm);
   }
 
   void

@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/exceptions.h>
+#include <treacle/base/work.h>
 #include <treacle/dynamics/stokes.h>
 #include <treacle/fields/face_node.h>
 
@@ -103,6 +104,7 @@ namespace treacle
   void
   Stokes<dim>::vmult(Pair &y, const Pair &x) const
   {
+    ++Work::here().products;
     hybrid.stiff.matrix->vmult(y.block(0), x.block(0));
     faces.apply(y.block(0), y.block(1), x.block(0), x.block(1));
   }

@@ -103,12 +103,16 @@ namespace treacle
             }
       }
     sort_unique(cubes);
-    cubes.erase(std::remove_if(cubes.begin(),
-                               cubes.end(),
-                               [&](const VertexKey cube) {
-                                 return !is_needed(centre_of_cube(octree, cube));
-                               }),
-                cubes.end());
+    std::string error;
+    keep_error(error, [&] {
+      cubes.erase(std::remove_if(cubes.begin(),
+                                 cubes.end(),
+                                 [&](const VertexKey cube) {
+                                   return !is_needed(centre_of_cube(octree, cube));
+                                 }),
+                  cubes.end());
+    });
+    throw_first(comm, error);
   }
 
   template <int dim>

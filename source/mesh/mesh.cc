@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/work.h>
 #include <treacle/mesh/imported_mesh.h>
 #include <treacle/mesh/lattice_mesh.h>
 #include <treacle/mesh/make_locator.h>
@@ -99,6 +100,7 @@ namespace treacle
   Mesh<dim>::Maker::make(const MeshCells<dim> &mesh_cells)
   {
     const MeshNumbering<dim> numbering(mesh.comm, mesh_cells);
+    Work::here().cells_made += numbering.cells->locally_owned_size();
     mesh.nodes = numbering.nodes;
     mesh.faces = numbering.faces;
     mesh.cells = numbering.cells;

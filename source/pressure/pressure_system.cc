@@ -47,17 +47,14 @@ namespace treacle
   PressureSystem<dim>::assemble(const FaceFunction        &mobility,
                                 const std::vector<double> &diagonal) const
   {
-    MatrixRows matrix(domain.mesh.communicator(),
-                      rows(),
-                      numbering.ghost_columns,
-                      std::vector<unsigned int>(cells().size(), dim + 2));
+    MatrixRows matrix;
     MatrixRow  row;
     for (unsigned int i = 0; i < cells().size(); ++i)
       {
         set_row(cells()[i], mobility, diagonal[i], row);
-        matrix.insert(i, row);
+        matrix.append(row);
       }
-    return matrix.take();
+    return matrix.take(domain.mesh.communicator(), rows(), numbering.ghost_columns);
   }
 
   template <int dim>

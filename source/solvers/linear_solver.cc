@@ -3,6 +3,7 @@
 
 #include <treacle/base/choice.h>
 #include <treacle/base/exceptions.h>
+#include <treacle/base/work.h>
 #include <treacle/solvers/linear_solver.h>
 
 #include <deal.II/lac/solver_cg.h>
@@ -131,7 +132,10 @@ namespace treacle
                              const NearNull                       &near_null)
     : prm(parameters)
     , name(name)
-    , matrix([&matrix](Vector &y, const Vector &x) { matrix.vmult(y, x); })
+    , matrix([&matrix](Vector &y, const Vector &x) {
+      ++Work::here().products;
+      matrix.vmult(y, x);
+    })
     , make([kind = prm.preconditioner, &matrix, near_null] {
       return make_preconditioner(kind, matrix, near_null);
     })
@@ -150,8 +154,12 @@ namespace treacle
   void
   LinearSolver::precondition(Vector &z, const Vector &r) const
   {
+    ++Work::here().preconditionings;
     if (!preconditioner)
-      preconditioner = make();
+      {
+        ++Work::here().preconditioners_made;
+        preconditioner = make();
+      }
     preconditioner(z, r);
   }
 

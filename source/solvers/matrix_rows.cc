@@ -3,44 +3,52 @@
 
 #include <treacle/solvers/matrix_rows.h>
 
+#include <Epetra_CrsMatrix.h>
+
 namespace treacle
 {
-  MatrixRows::MatrixRows(const MPI_Comm                  &comm,
-                         const IndexSet                  &rows,
-                         const std::vector<GlobalIndex>  &others,
-                         const std::vector<unsigned int> &lengths)
-    : row_map(rows.make_trilinos_map(comm, false))
-  {
-    std::vector<int> known(row_map.MyGlobalElements(),
-                           row_map.MyGlobalElements() + row_map.NumMyElements());
-    known.insert(known.end(), others.begin(), others.end());
-    const Epetra_Map       column_map(-1, known.size(), known.data(), 0, row_map.Comm());
-    const std::vector<int> n_entries(lengths.begin(), lengths.end());
-    matrix = std::make_unique<Epetra_CrsMatrix>(Copy, row_map, column_map, n_entries.data(), true);
-  }
-
   void
-  MatrixRows::insert(const unsigned int row, const MatrixRow &entries)
+  MatrixRows::append(const MatrixRow &row)
   {
-    columns.clear();
-    values.clear();
-    for (const auto &[column, value] : entries)
+    for (const auto &[column, value] : row)
       {
         columns.push_back(column);
         values.push_back(value);
       }
-    const int error = matrix->InsertMyValues(row, columns.size(), values.data(), columns.data());
-    AssertThrow(error >= 0, ExcMessage("A row of a matrix is longer than was said."));
+    lengths.push_back(row.size());
   }
 
   std::unique_ptr<TrilinosWrappers::SparseMatrix>
-  MatrixRows::take()
+  MatrixRows::take(const MPI_Comm                 &comm,
+                   const IndexSet                 &rows,
+                   const std::vector<GlobalIndex> &others)
   {
-    const int error = matrix->FillComplete(row_map, row_map);
+    const Epetra_Map row_map = rows.make_trilinos_map(comm, false);
+    const int        n_rows  = row_map.NumMyElements();
+    std::vector<int> place(n_rows + others.size(), 0); // first 1 where used
+    for (const int column : columns)
+      place[column] = 1;
+    std::vector<int> known(row_map.MyGlobalElements(), row_map.MyGlobalElements() + n_rows);
+    for (int column = 0; column < static_cast<int>(place.size()); ++column)
+      if (column < n_rows)
+        place[column] = column;
+      else if (place[column] == 1)
+        {
+          place[column] = known.size();
+          known.push_back(others[column - n_rows]);
+        }
+    for (int &column : columns)
+      column = place[column];
+
+    const Epetra_Map column_map(-1, known.size(), known.data(), 0, row_map.Comm());
+    Epetra_CrsMatrix matrix(Copy, row_map, column_map, lengths.data(), true);
+    for (int row = 0, begin = 0; row < n_rows; begin += lengths[row++])
+      matrix.InsertMyValues(row, lengths[row], values.data() + begin, columns.data() + begin);
+    const int error = matrix.FillComplete(row_map, row_map);
     AssertThrow(error >= 0, ExcMessage("A matrix could not be completed."));
+    *this       = MatrixRows();
     auto result = std::make_unique<TrilinosWrappers::SparseMatrix>();
-    result->reinit(*matrix);
-    matrix.reset();
+    result->reinit(matrix);
     return result;
   }
 } // namespace treacle

@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/exchange.h>
+#include <treacle/base/work.h>
 #include <treacle/geometry/nearest_point.h>
 #include <treacle/mesh/near_ranks.h>
 #include <treacle/surface/surface_distance.h>
@@ -72,6 +73,7 @@ namespace treacle
     candidates.clear();
     double least = within;
     tree.search(x, within, [&](const unsigned int facet) {
+      ++Work::here().facets_tried;
       const Point<dim> p = nearest_point(facets[facet], x);
       const double     d = p.distance(x);
       if (d < within && d <= least + tolerance)

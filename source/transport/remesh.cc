@@ -118,7 +118,7 @@ namespace treacle
     BandWidths
     widths(const OctreeParameters<dim> &prm)
     {
-      return {prm.band_width + 0.5, prm.air_band_width + 0.5};
+      return {prm.band_width + 1., prm.air_band_width + 0.5};
     }
 
     /// Leaves that the band touches, or that are as near to an emitter.

@@ -12,22 +12,7 @@ namespace treacle
     , owned_nodes(numbering.owned)
     , number(numbering.number)
     , rows(numbering.rows)
-  {
-    const Mesh<dim>        &mesh = domain.mesh;
-    std::vector<LocalIndex> columns;
-    for (const LocalIndex node : owned_nodes)
-      {
-        columns.clear();
-        for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
-          if (domain.is_active_cell[mesh.node_cells[k]])
-            columns.insert(columns.end(),
-                           mesh.cell_nodes[mesh.node_cells[k]].begin(),
-                           mesh.cell_nodes[mesh.node_cells[k]].end());
-        std::sort(columns.begin(), columns.end());
-        const auto n_columns = std::unique(columns.begin(), columns.end()) - columns.begin();
-        row_lengths.insert(row_lengths.end(), dim, dim * n_columns);
-      }
-  }
+  {}
 
   template <int dim>
   struct NodeSystem<dim>::Row
@@ -191,7 +176,7 @@ namespace treacle
               else
                 row.entries.emplace_back(dim * column + b, place == 0 && a == b ? diagonal : value);
             }
-        matrix.insert(dim * i + a, row.entries);
+        matrix.append(row.entries);
       }
   }
 
@@ -204,7 +189,7 @@ namespace treacle
     const MPI_Comm &comm = domain.mesh.communicator();
     Assembled       result;
     result.shift.reinit(rows, comm);
-    MatrixRows matrix(comm, rows, numbering.ghost_columns, row_lengths);
+    MatrixRows matrix;
     const bool decoupled = mass != Mass::faces && stiffness.strain.empty();
     Row        row(domain.mesh.node_position.size());
     for (unsigned int i = 0; i < owned_nodes.size(); ++i)
@@ -212,7 +197,7 @@ namespace treacle
         assemble_row(mass, stiffness, face_mass, owned_nodes[i], row);
         insert(row, i, decoupled, result.shift, matrix);
       }
-    result.matrix = matrix.take();
+    result.matrix = matrix.take(comm, rows, numbering.ghost_columns);
     return result;
   }
 

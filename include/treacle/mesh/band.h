@@ -30,7 +30,8 @@ namespace treacle
   class Band
   {
   public:
-    /// @p points of this rank; only cubes whose centres @p is_needed.
+    /// @p points of this rank; only cubes whose centres @p is_needed. Collective; throws on all
+    /// ranks alike what that throws on one.
     Band(const Octree<dim>                             &octree,
          const std::vector<BandPoint<dim>>             &points,
          const BandWidths                              &widths,

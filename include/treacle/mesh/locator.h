@@ -4,6 +4,7 @@
 #ifndef treacle_mesh_locator_h
 #define treacle_mesh_locator_h
 
+#include <treacle/base/work.h>
 #include <treacle/mesh/mesh.h>
 
 namespace treacle
@@ -45,6 +46,7 @@ namespace treacle
     Location<dim>
     locate(const Point<dim> &x, const LocalIndex guess) const
     {
+      ++Work::here().points_located;
       constexpr unsigned int longest = 12;
       LocalIndex             cell    = guess;
       for (unsigned int k = 0; k < longest && cell < mesh.n_owned_cells(); ++k)

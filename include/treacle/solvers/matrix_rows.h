@@ -8,12 +8,10 @@
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
-#include <Epetra_CrsMatrix.h>
-
 namespace treacle
 {
   /// Columns and values.
-  using MatrixRow = std::vector<std::pair<int, double>>;
+  using MatrixRow = std::vector<std::pair<unsigned int, double>>;
 
   /// A square sparse matrix in the making, each row whole on the rank that owns it. Columns are
   /// local: this rank's rows, then those of others that it knows. What deal.II offers looks up
@@ -21,25 +19,20 @@ namespace treacle
   class MatrixRows
   {
   public:
-    /// @p others in ascending order; @p lengths bounds the entries of each row. Collective.
-    MatrixRows(const MPI_Comm                  &comm,
-               const IndexSet                  &rows,
-               const std::vector<GlobalIndex>  &others,
-               const std::vector<unsigned int> &lengths);
-
-    /// The entries of a row of this rank, each column once, in ascending order.
+    /// The next row of this rank, each column once, in ascending order.
     void
-    insert(const unsigned int row, const MatrixRow &entries);
+    append(const MatrixRow &row);
 
-    /// Collective. Nothing is left.
+    /// @p others in ascending order; those without an entry are left out, for ML takes it
+    /// that two ranks need one another or do not. Collective. Nothing is left.
     std::unique_ptr<TrilinosWrappers::SparseMatrix>
-    take();
+    take(const MPI_Comm                 &comm,
+         const IndexSet                 &rows,
+         const std::vector<GlobalIndex> &others);
 
   private:
-    Epetra_Map                        row_map;
-    std::unique_ptr<Epetra_CrsMatrix> matrix;
-    std::vector<int>                  columns; ///< scratch, as values are
-    std::vector<double>               values;
+    std::vector<int>    lengths, columns;
+    std::vector<double> values;
   };
 } // namespace treacle
 

@@ -145,7 +145,6 @@ namespace treacle
     const std::vector<LocalIndex>  &owned_nodes;
     const std::vector<GlobalIndex> &number;
     const IndexSet                 &rows;
-    std::vector<unsigned int>       row_lengths;
   };
 } // namespace treacle
 
