@@ -34,7 +34,7 @@ def measure(dimension, settings, ranks):
         done = subprocess.run(line, capture_output=True, text=True)
         if done.returncode != 0:
             sys.exit(f"coupling: {done.stderr.strip()}")
-        table, seconds = read_statistics(directory), read_timing(directory)[0]
+        table, seconds = read_statistics(directory), read_timing(directory).seconds
         n_steps = len(table["Time (s)"]) - 1
         solve = sum(seconds.get(name, 0) for name in ("viscosity", "pressure", "coupled"))
         return (int(table["Cells"][-1]), int(max(table["Viscosity iterations"])),

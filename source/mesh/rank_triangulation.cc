@@ -3,6 +3,8 @@
 
 #include <treacle/mesh/rank_triangulation.h>
 
+#include <numeric>
+
 namespace treacle
 {
   namespace

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy
 from synthetic_run import write_run
 
-from treacle import DataError, Run, read_parameters, read_statistics, read_surface
+from treacle import DataError, Run, read_parameters, read_statistics, read_surface, read_timing
 from treacle.layers import problems
 from treacle.stream import centre_of_cut, coiling, folding
 
@@ -60,6 +60,26 @@ class StatisticsTest(InDirectory):
         self.fails("is not a table", read_statistics, self.run_path / "parameters.prm")
         (self.path / "statistics").write_bytes(b"\xff\x00\n")
         self.fails("cannot be read", read_statistics, self.path)
+
+
+class TimingTest(InDirectory):
+    def test_read(self):
+        (self.path / "timing.txt").write_text(
+            "Section                calls    wall time   share\n"
+            "liquid domain              3       1.50 s  75.0 %\n"
+            "Total                      1       2.00 s 100.0 %\n"
+            "Peak memory: 853 MiB in all, 430 MiB on the largest of 2 ranks\n"
+            "Work                              2\n"
+            "products with matrices           12\n")
+        timing = read_timing(self.path)
+        self.assertEqual(timing.seconds, {"liquid domain": 1.5, "Total": 2})
+        self.assertEqual(timing.memory, 853)
+        self.assertEqual(timing.work, {"products with matrices": 12})
+
+    def test_errors(self):
+        self.fails("timing.txt'", read_timing, self.path)
+        (self.path / "timing.txt").write_text("nothing\n")
+        self.fails("is not the timing of a run", read_timing, self.path)
 
 
 class RunTest(InDirectory):
