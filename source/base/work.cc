@@ -8,13 +8,6 @@
 
 namespace treacle
 {
-  Work &
-  Work::here()
-  {
-    static Work work;
-    return work;
-  }
-
   std::string
   Work::summary(const MPI_Comm &comm)
   {

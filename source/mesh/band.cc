@@ -25,10 +25,10 @@ namespace treacle
     LatticePoint<dim>
     direction(const Tensor<1, dim> &normal)
     {
-      constexpr double sin_of_half_a_quadrant = 0.3827;
+      constexpr double  sin_of_a_quarter_of_a_right_angle = 0.3827;
       LatticePoint<dim> signs{};
       for (unsigned int d = 0; d < dim; ++d)
-        if (std::abs(normal[d]) > sin_of_half_a_quadrant)
+        if (std::abs(normal[d]) > sin_of_a_quarter_of_a_right_angle)
           signs[d] = normal[d] < 0 ? -1 : 1;
       return signs;
     }

@@ -42,9 +42,12 @@ namespace treacle
 
     const Epetra_Map column_map(-1, known.size(), known.data(), 0, row_map.Comm());
     Epetra_CrsMatrix matrix(Copy, row_map, column_map, lengths.data(), true);
+    int              error = 0;
     for (int row = 0, begin = 0; row < n_rows; begin += lengths[row++])
-      matrix.InsertMyValues(row, lengths[row], values.data() + begin, columns.data() + begin);
-    const int error = matrix.FillComplete(row_map, row_map);
+      error = std::min(
+        error,
+        matrix.InsertMyValues(row, lengths[row], values.data() + begin, columns.data() + begin));
+    error = std::min(error, matrix.FillComplete(row_map, row_map));
     AssertThrow(error >= 0, ExcMessage("A matrix could not be completed."));
     *this       = MatrixRows();
     auto result = std::make_unique<TrilinosWrappers::SparseMatrix>();

@@ -48,17 +48,11 @@ namespace treacle
             values[v] = phi[cell.vertex[v]];
           const Facets<dim> facets = surface_facets<dim>(values);
           for (unsigned int k = 0; k < facets.n && cell.owner == rank; ++k)
-            {
-              std::array<Point<dim>, dim> facet;
-              for (unsigned int i = 0; i < dim; ++i)
-                {
-                  const auto [a, b]      = facets.facet[k][i];
-                  const Point<dim> &from = mesh.vertices[cell.vertex[a]].position;
-                  const Point<dim> &to   = mesh.vertices[cell.vertex[b]].position;
-                  facet[i]               = from + edge_zero(values[a], values[b]) * (to - from);
-                }
-              append<dim>(points, facet);
-            }
+            append<dim>(
+              points,
+              facet_points<dim>(facets.facet[k], values, [&](const unsigned int v) -> const Point<dim> & {
+                return mesh.vertices[cell.vertex[v]].position;
+              }));
         }
       return points;
     }

@@ -25,7 +25,11 @@ namespace treacle
     std::uint64_t bytes_allocated      = 0; ///< by new
 
     static Work &
-    here();
+    here()
+    {
+      static Work work;
+      return work;
+    }
 
     /// A table of it: what has to do with solves once, for all ranks do the same, the others
     /// summed up. Collective.

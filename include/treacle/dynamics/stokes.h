@@ -19,8 +19,8 @@ namespace treacle
   ///   -B s P v - B (1 - s) M^-1 B^T q     = B (1 - s) u*,
   ///
   /// symmetric and indefinite, solved by MINRES. Its preconditioner is one multigrid cycle
-  /// for the first block, and for the pressure one of the projection's matrix and one of
-  /// what viscosity makes of the Schur complement, as in Cahouet & Chabard (1988).
+  /// for the first block, and for the pressure one of the projection's matrix and a
+  /// polynomial of what viscosity makes of the Schur complement, as in Cahouet & Chabard (1988).
   template <int dim>
   class Stokes
   {

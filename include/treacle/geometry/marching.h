@@ -33,6 +33,21 @@ namespace treacle
   {
     return phi_a / (phi_a - phi_b);
   }
+
+  /// The vertices of a facet, with the position of each vertex of the simplex.
+  template <int dim, typename Position>
+  std::array<Point<dim>, dim>
+  facet_points(const CutEdges<dim> &facet, const VertexValues<dim> &phi, const Position &position)
+  {
+    std::array<Point<dim>, dim> x;
+    for (unsigned int i = 0; i < dim; ++i)
+      {
+        const auto [a, b]      = facet[i];
+        const Point<dim> &from = position(a);
+        x[i]                   = from + edge_zero(phi[a], phi[b]) * (position(b) - from);
+      }
+    return x;
+  }
 } // namespace treacle
 
 #endif

@@ -59,17 +59,9 @@ namespace treacle
     const VertexValues<dim> values = mesh.values(cell, phi);
     const Facets<dim>       facets = surface_facets<dim>(values);
     for (unsigned int k = 0; k < facets.n; ++k)
-      {
-        std::array<Point<dim>, dim> x;
-        for (unsigned int i = 0; i < dim; ++i)
-          {
-            const auto [a, b]      = facets.facet[k][i];
-            const Point<dim> &from = mesh.node_position[mesh.cell_nodes[cell][a]];
-            x[i]                   = from + edge_zero(values[a], values[b]) *
-                            (mesh.node_position[mesh.cell_nodes[cell][b]] - from);
-          }
-        visit(x);
-      }
+      visit(facet_points<dim>(facets.facet[k], values, [&](const unsigned int v) -> const Point<dim> & {
+        return mesh.node_position[mesh.cell_nodes[cell][v]];
+      }));
   }
 } // namespace treacle
 

@@ -42,8 +42,9 @@ namespace treacle
               const SurfaceGeometry<dim> &surface,
               const BackwardDifference   &difference);
 
-    /// The state at old.time + dt: phi, carried material, and u within @p reach (m)
-    /// of the liquid, which is what the backward difference starts from.
+    /// The state at old.time + dt: phi, carried material, and u of the faces that may carry
+    /// liquid, which is what the backward difference starts from. MacCormack's correction
+    /// needs what is within @p reach (m) of the liquid.
     State<dim>
     advance(std::shared_ptr<const Mesh<dim>> mesh, const double reach) const;
 
