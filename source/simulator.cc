@@ -180,7 +180,7 @@ namespace treacle
   {
     auto [loaded, progress] = imported ?
                                 checkpoint.load(imported) :
-                                checkpoint.load(with_box(prm.mesh, scene), &leaf_weight<dim>);
+                                checkpoint.load(with_box(prm.mesh, scene));
     liquid.state            = std::make_unique<State<dim>>(std::move(loaded));
     State<dim> &state       = *liquid.state;
     frame                   = progress.frame;

@@ -54,7 +54,7 @@ namespace treacle
       fs::remove_all(directory, ignored);
     }
 
-    const std::string scalar_prefix = "Scalar ", format_version = "4";
+    const std::string scalar_prefix = "Scalar ", format_version = "5";
 
     template <int dim>
     void
@@ -147,9 +147,7 @@ namespace treacle
 
   template <int dim>
   std::pair<State<dim>, typename Checkpoint<dim>::Progress>
-  Checkpoint<dim>::load(
-    const typename Octree<dim>::Parameters               &parameters,
-    const std::function<unsigned int(const Leaf<dim> &)> &weight) const
+  Checkpoint<dim>::load(const typename Octree<dim>::Parameters &parameters) const
   {
     const auto [directory, info] = find("lattice");
     info.require_same("Lower corner",
@@ -166,7 +164,7 @@ namespace treacle
                       std::to_string(parameters.surface_level));
 
     const auto mesh = std::make_shared<const Mesh<dim>>(
-      read_octree<dim>(comm, directory + "/leaves", parameters, weight));
+      read_octree<dim>(comm, directory + "/leaves", parameters));
     require(info.get("Mesh fingerprint") == fingerprint(*mesh),
             "The checkpoint \"" + directory + "\" is damaged: its leaves do not make the mesh "
             "that was saved.");

@@ -56,39 +56,51 @@ namespace treacle
         const Leaf<dim> &leaf = octree.leaves()[l];
         numbers.insert(numbers.end(), leaf.origin.begin(), leaf.origin.end());
         numbers.push_back(leaf.level);
+        numbers.push_back(octree.leaf_weights()[l]);
       }
     TableFile<int>::write(octree.communicator(), path, numbers);
   }
 
   template <int dim>
   std::shared_ptr<const Octree<dim>>
-  read_octree(const MPI_Comm                                       &comm,
-              const std::string                                    &path,
-              const typename Octree<dim>::Parameters               &parameters,
-              const std::function<unsigned int(const Leaf<dim> &)> &weight)
+  read_octree(const MPI_Comm                         &comm,
+              const std::string                      &path,
+              const typename Octree<dim>::Parameters &parameters)
   {
+    struct Saved
+    {
+      unsigned int level  = 0;
+      unsigned int weight = 1;
+    };
     const std::vector<int> numbers =
       TableFile<int>::read(comm, path, 0, file_size(comm, path) / sizeof(int));
-    std::unordered_map<VertexKey, unsigned int> level_at; // by a leaf's lowest corner
-    for (std::size_t i = 0; i + dim < numbers.size(); i += dim + 1)
+    std::unordered_map<VertexKey, Saved> saved; // by a leaf's lowest corner
+    for (std::size_t i = 0; i + dim + 1 < numbers.size(); i += dim + 2)
       {
         LatticePoint<dim> origin;
         std::copy_n(numbers.begin() + i, dim, origin.begin());
-        level_at[pack<dim>(origin)] = numbers[i + dim];
+        saved[pack<dim>(origin)] = {static_cast<unsigned int>(numbers[i + dim]),
+                                    static_cast<unsigned int>(numbers[i + dim + 1])};
       }
+    const auto saved_of = [&](const Leaf<dim> &leaf) {
+      const auto it = saved.find(pack<dim>(leaf.origin));
+      return it == saved.end() ? Saved() : it->second;
+    };
     return std::make_shared<const Octree<dim>>(
       comm,
       parameters,
       [&](const std::vector<Leaf<dim>> &leaves) {
         std::vector<bool> refine;
         for (const Leaf<dim> &leaf : leaves)
-          {
-            const auto it = level_at.find(pack<dim>(leaf.origin));
-            refine.push_back(it != level_at.end() && it->second > leaf.level);
-          }
+          refine.push_back(saved_of(leaf).level > leaf.level);
         return refine;
       },
-      weight);
+      [&](const std::vector<Leaf<dim>> &leaves) {
+        std::vector<unsigned int> weights;
+        for (const Leaf<dim> &leaf : leaves)
+          weights.push_back(std::max(saved_of(leaf).weight, 1u));
+        return weights;
+      });
   }
 
   template <int dim>
@@ -119,8 +131,7 @@ namespace treacle
   template std::shared_ptr<const Octree<dim>> read_octree(                                \
     const MPI_Comm &,                                                                     \
     const std::string &,                                                                  \
-    const Octree<dim>::Parameters &,                                                      \
-    const std::function<unsigned int(const Leaf<dim> &)> &);                              \
+    const Octree<dim>::Parameters &);                                                     \
   template std::string fingerprint(const Mesh<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -29,10 +29,7 @@ namespace treacle
                       const Weight     &weight)
     : comm(comm)
     , prm(parameters)
-    , triangulation(
-        comm,
-        dealii::Triangulation<dim>::none,
-        parallel::distributed::Triangulation<dim>::communicate_vertices_to_p4est)
+    , triangulation(comm)
   {
     const std::vector<unsigned int> n = prm.root_counts();
     unit                              = 0.5 * prm.finest_size();
@@ -44,8 +41,8 @@ namespace treacle
                                               prm.lower_corner,
                                               prm.upper_corner);
     refine(criterion);
-    partition(weight);
-    collect_leaves();
+    collect_leaves(partition(weight));
+    find_ranges();
   }
 
   template <int dim>
@@ -81,36 +78,52 @@ namespace treacle
   }
 
   template <int dim>
-  void
+  std::unordered_map<VertexKey, unsigned int>
   Octree<dim>::partition(const Weight &weight)
   {
-    const auto connection = triangulation.signals.weight.connect(
-      [&](const CellIterator &cell, const auto) { return weight(leaf_of(cell)); });
+    std::vector<Leaf<dim>> leaves;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        leaves.push_back(leaf_of(cell));
+    const std::vector<unsigned int>             values = weight(leaves);
+    std::unordered_map<VertexKey, unsigned int> weight_at;
+    for (unsigned int i = 0; i < leaves.size(); ++i)
+      weight_at[pack<dim>(leaves[i].origin)] = values[i];
+    const auto weight_of = [&](const CellIterator &cell, const auto) {
+      return weight_at.at(pack<dim>(leaf_of(cell).origin));
+    };
+
+    // weights move with their leaves
+    const auto         connection = triangulation.signals.weight.connect(weight_of);
+    const unsigned int handle     = triangulation.register_data_attach(
+      [&](const CellIterator &cell, const auto status) {
+        return Utilities::pack(weight_of(cell, status), false);
+      },
+      false);
     triangulation.repartition();
     connection.disconnect();
+    std::unordered_map<VertexKey, unsigned int> now;
+    triangulation.notify_ready_to_unpack(
+      handle, [&](const CellIterator &cell, const auto, const auto &data) {
+        now[pack<dim>(leaf_of(cell).origin)] =
+          Utilities::unpack<unsigned int>(data.begin(), data.end(), false);
+      });
+    return now;
   }
 
   template <int dim>
   void
-  Octree<dim>::collect_leaves()
+  Octree<dim>::collect_leaves(const std::unordered_map<VertexKey, unsigned int> &weight_at)
   {
-    // tree and place in it, which order the leaves
-    using Entry         = std::pair<std::pair<unsigned int, std::uint64_t>, Leaf<dim>>;
-    const auto &tree_of = triangulation.get_coarse_cell_to_p4est_tree_permutation();
+    using Entry = std::pair<Position, Leaf<dim>>;
     std::vector<Entry> owned, ghosts;
     for (const auto &cell : triangulation.active_cell_iterators())
       if (!cell->is_artificial())
         {
-          const Leaf<dim>    leaf = leaf_of(cell);
-          const unsigned int tree = tree_of[cell->id().get_coarse_cell_id()];
-          LatticePoint<dim>  local;
-          for (unsigned int d = 0; d < dim; ++d)
-            local[d] = leaf.origin[d] % root_size();
+          const Leaf<dim> leaf = leaf_of(cell);
           (cell->is_locally_owned() ? owned : ghosts)
-            .push_back({{tree, morton<dim>(local)}, leaf});
+            .push_back({position_on_curve(leaf.origin), leaf});
         }
-    n_owned = owned.size();
-    all_leaves.clear();
     for (auto *list : {&owned, &ghosts})
       {
         std::sort(list->begin(), list->end(), [](const Entry &a, const Entry &b) {
@@ -119,9 +132,38 @@ namespace treacle
         for (const Entry &entry : *list)
           all_leaves.push_back(entry.second);
       }
+    for (unsigned int i = 0; i < owned.size(); ++i)
+      weights.push_back(weight_at.at(pack<dim>(all_leaves[i].origin)));
     by_origin.reserve(2 * all_leaves.size());
     for (unsigned int i = 0; i < all_leaves.size(); ++i)
       by_origin[pack<dim>(all_leaves[i].origin)] = i;
+  }
+
+  template <int dim>
+  typename Octree<dim>::Position
+  Octree<dim>::position_on_curve(const LatticePoint<dim> &cube) const
+  {
+    // root cells are numbered along x first
+    LatticePoint<dim> local;
+    unsigned int      root = 0;
+    for (int d = dim - 1; d >= 0; --d)
+      {
+        root     = root * (box[d] / root_size()) + cube[d] / root_size();
+        local[d] = cube[d] % root_size();
+      }
+    return {triangulation.get_coarse_cell_to_p4est_tree_permutation()[root], morton<dim>(local)};
+  }
+
+  template <int dim>
+  void
+  Octree<dim>::find_ranges()
+  {
+    constexpr Position end{std::numeric_limits<unsigned int>::max(), 0};
+    first_of_rank = Utilities::MPI::all_gather(
+      comm, n_owned_leaves() == 0 ? end : position_on_curve(all_leaves.front().origin));
+    for (unsigned int rank = first_of_rank.size(); rank-- > 0;)
+      if (first_of_rank[rank] == end && rank + 1 < first_of_rank.size())
+        first_of_rank[rank] = first_of_rank[rank + 1];
   }
 
   template <int dim>
@@ -152,17 +194,14 @@ namespace treacle
   std::vector<unsigned int>
   Octree<dim>::owner_ranks(const std::vector<Point<dim>> &x) const
   {
-    // the centre of the finest cube: no doubt about points between two leaves
-    std::vector<Point<dim>> centres;
-    centres.reserve(x.size());
+    std::vector<unsigned int> ranks;
+    ranks.reserve(x.size());
     for (const Point<dim> &p : x)
-      {
-        LatticePoint<dim> c = finest_cube(p);
-        for (auto &i : c)
-          ++i;
-        centres.push_back(position(c));
-      }
-    return triangulation.find_point_owner_rank(centres);
+      ranks.push_back(std::upper_bound(first_of_rank.begin(),
+                                       first_of_rank.end(),
+                                       position_on_curve(finest_cube(p))) -
+                      first_of_rank.begin() - 1);
+    return ranks;
   }
 
   template <int dim>

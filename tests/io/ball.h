@@ -35,13 +35,6 @@ namespace tests
     return parameters;
   }
 
-  template <int dim>
-  unsigned int
-  leaf_weight(const Leaf<dim> &leaf)
-  {
-    return leaf.size == 2 ? 3 : 1;
-  }
-
   /// Points on the ball, of all ranks.
   template <int dim>
   std::vector<Marker<dim>>
@@ -81,7 +74,12 @@ namespace tests
           }
         return refine;
       },
-      leaf_weight<dim>);
+      [](const std::vector<Leaf<dim>> &leaves) {
+        std::vector<unsigned int> weights;
+        for (const Leaf<dim> &leaf : leaves)
+          weights.push_back(leaf.size == 2 ? 3 : 1);
+        return weights;
+      });
     State<dim>       state(std::make_shared<const Mesh<dim>>(octree));
     const Mesh<dim> &mesh     = *state.mesh;
     const auto       velocity = [&](const Point<dim> &x) {

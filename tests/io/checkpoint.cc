@@ -91,7 +91,7 @@ void
 load(const MPI_Comm &comm)
 {
   const auto [state, progress] =
-    checkpoint<dim>(comm).load(tests::ball_mesh<dim>(), tests::leaf_weight<dim>);
+    checkpoint<dim>(comm).load(tests::ball_mesh<dim>());
   const double worst    = difference<dim>(state, comm);
   const bool   are_same = same_markers<dim>(state, comm);
   tests::out() << dim << "D: time " << state.time << ", step " << state.step << ", frame "
@@ -107,7 +107,7 @@ refuse(const MPI_Comm &comm, const typename Octree<dim>::Parameters &parameters)
 {
   try
     {
-      checkpoint<dim>(comm).load(parameters, tests::leaf_weight<dim>);
+      checkpoint<dim>(comm).load(parameters);
       tests::out() << "no error" << std::endl;
     }
   catch (const UserError &error)
@@ -183,7 +183,7 @@ check_all_parts(const MPI_Comm &comm, const bool at_nodes)
   const State<dim> saved = make();
   checkpoint<dim>(comm).write(saved, {1, {}});
   const State<dim> loaded =
-    checkpoint<dim>(comm).load(tests::ball_mesh<dim>(), tests::leaf_weight<dim>).first;
+    checkpoint<dim>(comm).load(tests::ball_mesh<dim>()).first;
   bool       same = loaded.before->dt == 0.1;
   const auto add  = [&](const treacle::Vector &a, const treacle::Vector &b) {
     for (unsigned int i = 0; i < a.locally_owned_size() + a.get_partitioner()->n_ghost_indices(); ++i)

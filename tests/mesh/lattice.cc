@@ -53,8 +53,7 @@ make_octree(const MPI_Comm &comm, const int seed, const unsigned int level)
             refine.push_back(generator() % 100 < 30);
           }
       return refine;
-    },
-    [](const Leaf<dim> &) { return 1u; });
+    });
 }
 
 template <int dim>

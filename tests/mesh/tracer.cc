@@ -31,8 +31,7 @@ check(const MPI_Comm &comm)
       for (const Leaf<dim> &leaf : leaves)
         refine.push_back(leaf.level < 2 || leaf.origin[0] <= 20);
       return refine;
-    },
-    [](const Leaf<dim> &) { return 1u; });
+    });
   const Mesh<dim> mesh(octree);
 
   const auto quadratic = [](const Point<dim> &x) {
@@ -118,8 +117,7 @@ check_lost_point()
   const Mesh<2> mesh(std::make_shared<const Octree<2>>(
     MPI_COMM_SELF,
     prm,
-    [](const std::vector<Leaf<2>> &leaves) { return std::vector<bool>(leaves.size(), false); },
-    [](const Leaf<2> &) { return 1u; }));
+    [](const std::vector<Leaf<2>> &leaves) { return std::vector<bool>(leaves.size(), false); }));
   const treacle::Vector zero  = mesh.zeros(mesh.nodes);
   std::string           found = "no error";
   try

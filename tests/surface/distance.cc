@@ -31,8 +31,7 @@ uniform_mesh(const MPI_Comm &comm, const unsigned int level)
       for (const Leaf<dim> &leaf : leaves)
         refine.push_back(leaf.level < level);
       return refine;
-    },
-    [](const Leaf<dim> &) { return 1u; }));
+    }));
 }
 
 /// Sums over the nodes with |x_0 - 1/2| < 1e-9 of the coordinates of their nearest points.

@@ -33,8 +33,7 @@ uniform_mesh(const MPI_Comm &comm, const unsigned int level)
       for (const Leaf<dim> &leaf : leaves)
         refine.push_back(leaf.level < level);
       return refine;
-    },
-    [](const Leaf<dim> &) { return 1u; }));
+    }));
 }
 
 template <int dim>

@@ -98,8 +98,8 @@ namespace
         }
       return result;
     };
-    return std::make_shared<const Mesh<dim>>(std::make_shared<const Octree<dim>>(
-      comm, prm, refine, [](const Leaf<dim> &) { return 1u; }));
+    return std::make_shared<const Mesh<dim>>(
+      std::make_shared<const Octree<dim>>(comm, prm, refine));
   }
 
   struct Error

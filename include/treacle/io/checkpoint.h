@@ -49,11 +49,10 @@ namespace treacle
     void
     write(const State<dim> &state, const Progress &progress) const;
 
-    /// @p parameters and @p weight as for the Octree of a run from the start; the
-    /// box and the finest level must be those of the saved one.
+    /// @p parameters as for the Octree of a run from the start; the box and the finest level
+    /// must be those of the saved one.
     std::pair<State<dim>, Progress>
-    load(const typename Octree<dim>::Parameters               &parameters,
-         const std::function<unsigned int(const Leaf<dim> &)> &weight) const;
+    load(const typename Octree<dim>::Parameters &parameters) const;
 
     /// On a mesh from a file, which must be that of the saved state.
     std::pair<State<dim>, Progress>

@@ -10,20 +10,19 @@
 
 namespace treacle
 {
-  /// Write the leaves of an octree. Throws a UserError on all ranks. Collective, as is all
+  /// Write the leaves of an octree with their weights. Throws a UserError on all ranks. Collective, as is all
   /// below.
   template <int dim>
   void
   write_leaves(const Octree<dim> &octree, const std::string &path);
 
-  /// The octree that such a file describes; with the parameters and weights of the saved one
-  /// it has the same partition on the same number of ranks.
+  /// The octree that such a file describes; with the parameters of the saved one it has the
+  /// same partition on the same number of ranks.
   template <int dim>
   std::shared_ptr<const Octree<dim>>
-  read_octree(const MPI_Comm                                       &comm,
-              const std::string                                    &path,
-              const typename Octree<dim>::Parameters               &parameters,
-              const std::function<unsigned int(const Leaf<dim> &)> &weight);
+  read_octree(const MPI_Comm                         &comm,
+              const std::string                      &path,
+              const typename Octree<dim>::Parameters &parameters);
 
   /// A hash of the cells, their vertices and where these lie, in the order of the cells'
   /// numbers (of a file: the order there): whatever the partition.

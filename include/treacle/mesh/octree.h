@@ -26,8 +26,9 @@ namespace treacle
     /// Which of these leaves, all of one level, are to be refined? Collective.
     using Criterion = std::function<std::vector<bool>(const std::vector<Leaf<dim>> &)>;
 
-    /// The work that a leaf makes (at least 1).
-    using Weight = std::function<unsigned int(const Leaf<dim> &)>;
+    /// The work that each of these leaves makes, in units of one's choice (at least 1).
+    /// Collective.
+    using Weight = std::function<std::vector<unsigned int>(const std::vector<Leaf<dim>> &)>;
 
     /// Refine level by level from the root cells, balance, and partition so
     /// that every rank has about the same sum of @p weight.
@@ -35,7 +36,7 @@ namespace treacle
     Octree(const MPI_Comm   &comm,
            const Parameters &parameters,
            const Criterion  &criterion,
-           const Weight     &weight);
+           const Weight     &weight = &alike);
 
     const MPI_Comm &
     communicator() const
@@ -60,7 +61,14 @@ namespace treacle
     unsigned int
     n_owned_leaves() const
     {
-      return n_owned;
+      return weights.size();
+    }
+
+    /// What the partition weighed the owned leaves by.
+    const std::vector<unsigned int> &
+    leaf_weights() const
+    {
+      return weights;
     }
 
     /// The known leaf with its lowest corner at @p origin, or invalid.
@@ -75,7 +83,7 @@ namespace treacle
     LocalIndex
     leaf_containing(const Point<dim> &x) const;
 
-    /// The rank whose leaf contains x (clamped to the box), for each x.
+    /// The rank whose leaf contains x (clamped to the box), for each x. Not collective.
     std::vector<unsigned int>
     owner_ranks(const std::vector<Point<dim>> &x) const;
 
@@ -110,6 +118,12 @@ namespace treacle
   private:
     using CellIterator = typename Triangulation<dim>::cell_iterator;
 
+    static std::vector<unsigned int>
+    alike(const std::vector<Leaf<dim>> &leaves)
+    {
+      return std::vector<unsigned int>(leaves.size(), 1);
+    }
+
     /// Edge of a root cube in lattice units.
     int
     root_size() const
@@ -117,28 +131,41 @@ namespace treacle
       return 2 << prm.surface_level;
     }
 
+    /// A tree of p4est's forest, and the place along the Morton curve in it.
+    using Position = std::pair<unsigned int, std::uint64_t>;
+
     Leaf<dim>
     leaf_of(const CellIterator &cell) const;
+
+    /// Of the finest cube with this lowest corner: it orders all leaves.
+    Position
+    position_on_curve(const LatticePoint<dim> &cube) const;
 
     void
     refine(const Criterion &criterion);
 
-    void
+    /// Returns the weights of this rank's leaves then, by their lowest corners.
+    std::unordered_map<VertexKey, unsigned int>
     partition(const Weight &weight);
 
     void
-    collect_leaves();
+    collect_leaves(const std::unordered_map<VertexKey, unsigned int> &weight_at);
 
-    MPI_Comm   comm;
-    Parameters prm;
-    /// mutable: the look-up of owners is not const in deal.II.
-    mutable parallel::distributed::Triangulation<dim> triangulation;
+    void
+    find_ranges();
+
+    MPI_Comm                                  comm;
+    Parameters                                prm;
+    parallel::distributed::Triangulation<dim> triangulation;
 
     LatticePoint<dim>                           box;
     double                                      unit;
     std::vector<Leaf<dim>>                      all_leaves;
-    unsigned int                                n_owned = 0;
+    std::vector<unsigned int>                   weights;
     std::unordered_map<VertexKey, unsigned int> by_origin;
+    /// Where the leaves of each rank begin on the curve; those of one without any, where the
+    /// next one's do.
+    std::vector<Position> first_of_rank;
   };
 } // namespace treacle
 

@@ -10,15 +10,6 @@
 
 namespace treacle
 {
-  /// What a leaf costs in the partition: most cells, and all of the surface,
-  /// stand on the finest leaves.
-  template <int dim>
-  unsigned int
-  leaf_weight(const Leaf<dim> &leaf)
-  {
-    return leaf.size == 2 ? 4 : 2;
-  }
-
   /// A mesh for the liquids of the scene at t = 0. Collective.
   template <int dim>
   std::shared_ptr<const Mesh<dim>>
