@@ -82,6 +82,7 @@ namespace treacle
     , movement(prm.transport, scene)
     , time_step(movement.time_step)
     , dynamics(prm.dynamics, prm.steps)
+    , stepping(scene, prm.steps, prm.liquid_domain, movement, dynamics, timing)
     , mesh_writer(prm.mesh_writer)
     , surface_writer(prm.surface_writer)
     , probes(prm.probes)
@@ -118,7 +119,9 @@ namespace treacle
         // what was before an emitter starts or stops is of no use behind it
         if (scene.has_switch_at(liquid.state->time))
           liquid.state->before.reset();
-        step(time_step.next(*liquid.state, *liquid.domain, frame + 1));
+        info = stepping.advance(
+          liquid, volume, time_step.next(*liquid.state, *liquid.domain, frame + 1));
+        report();
         if (liquid.state->time >= time_step.frame_time(frame + 1) * (1 - 1e-12))
           {
             ++frame;
@@ -153,7 +156,7 @@ namespace treacle
     liquid.find(prm.liquid_domain);
     volume = liquid.domain->total_volume();
     set_initial_velocity(state, *liquid.domain);
-    dynamics.reconstruct(liquid);
+    dynamics.admit(liquid, timing);
     movement.extend_velocity(liquid);
 
     // nothing is written before all that can be wrong with the scene was seen
@@ -228,40 +231,6 @@ namespace treacle
 
   template <int dim>
   void
-  Simulator<dim>::step(const double dt)
-  {
-    Timer                    wall;
-    const BackwardDifference difference(dt, *liquid.state);
-    info    = StepInfo<dim>();
-    info.dt = dt;
-    scene.check_solids(liquid.state->time + dt);
-    transport(difference);
-    timing.measured("liquid domain", [&] { liquid.find(prm.liquid_domain); });
-    info.dynamics = dynamics.advance(liquid, difference, timing);
-    timing.measured("extrapolation", [&] { movement.extend_velocity(liquid); });
-    info.wall_time = wall.wall_time();
-    report();
-  }
-
-  template <int dim>
-  void
-  Simulator<dim>::transport(const BackwardDifference &difference)
-  {
-    if (prm.steps.surface)
-      {
-        const auto moved = movement.move_liquid(liquid, difference, volume, timing);
-        info.rebuilt     = moved.rebuilt;
-        info.emitted     = moved.emitted;
-        volume += moved.emitted;
-      }
-    else if (prm.steps.advection)
-      movement.move_velocity(liquid, difference, timing);
-    else
-      timing.measured("advection", [&] { movement.stay(*liquid.state, difference); });
-  }
-
-  template <int dim>
-  void
   Simulator<dim>::report()
   {
     statistics->add_row(*liquid.state, *liquid.domain, info);
@@ -280,6 +249,10 @@ namespace treacle
                   info.dynamics.pressure_iterations,
                   info.wall_time);
     log->line(text);
+    if (info.repetitions > 0)
+      log->line("the step was repeated " + std::to_string(info.repetitions) +
+                " times with half its size, for the surface won or lost more than 1 % of the volume"
+                "; left of it: " + digits(100 * info.drift) + " %");
     if (info.dynamics.fallbacks > 0)
       log->line("warning: the coupled solve stagnated; this step was split with first projection. A "
                 "smaller Maximum time step, or Linear solvers/Coupled/Maximum iterations, may help.");

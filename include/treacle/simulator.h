@@ -12,7 +12,7 @@
 #include <treacle/io/statistics.h>
 #include <treacle/io/surface_writer.h>
 #include <treacle/mesh/imported_mesh.h>
-#include <treacle/transport/transport.h>
+#include <treacle/time_stepping.h>
 
 namespace treacle
 {
@@ -73,13 +73,6 @@ namespace treacle
     std::string
     description_of_mesh() const;
 
-    /// One time step: the liquid moves, then what acts on it changes its velocity.
-    void
-    step(const double dt);
-
-    void
-    transport(const BackwardDifference &difference);
-
     void
     output_frame();
 
@@ -95,6 +88,7 @@ namespace treacle
     const Transport<dim>      movement;
     const TimeStep<dim>      &time_step;
     const Dynamics<dim>       dynamics;
+    const TimeStepping<dim>   stepping;
 
     const MeshWriter<dim>            mesh_writer;
     const SurfaceWriter<dim>         surface_writer;

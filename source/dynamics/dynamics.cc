@@ -4,6 +4,7 @@
 #include <treacle/base/choice.h>
 #include <treacle/base/exceptions.h>
 #include <treacle/dynamics/dynamics.h>
+#include <treacle/viscosity/least_squares.h>
 
 namespace treacle
 {
@@ -168,6 +169,33 @@ namespace treacle
     const auto section = timing.section("reconstruction");
     reconstruction.advance(state, *stage.fit);
     return stage.info;
+  }
+
+  template <int dim>
+  void
+  Dynamics<dim>::admit(Liquid<dim> &liquid, Timing &timing) const
+  {
+    State<dim> &state = *liquid.state;
+    Stage       stage(*this, *liquid.domain, state.time, 1., timing);
+    stage.project(state, Stage::Pass::correction);
+    state.pressure = 0; // it was that of a blow
+    reconstruction.advance(state, *stage.fit);
+  }
+
+  template <int dim>
+  std::unique_ptr<State<dim>>
+  Dynamics<dim>::outflow(const Liquid<dim> &liquid, const Vector &inflow, Timing &timing) const
+  {
+    if (!switches.pressure)
+      return nullptr;
+    auto result = copied(*liquid.state);
+    result->before.reset();
+    result->u = 0;
+    const Stage stage(*this, *liquid.domain, result->time, 1., timing);
+    Projection<dim>(*stage.pressure).carry_away(result->u, inflow);
+    // it is no flow of a viscous liquid: it slips, and has edges
+    LeastSquares<dim>(*liquid.domain).apply(result->u, result->v);
+    return result;
   }
 
   template class Dynamics<2>;

@@ -160,6 +160,8 @@ namespace treacle
                info.dt > 0 ? info.emitted / info.dt : 0);
     add_measures(row, measures);
     row.number("Maximum divergence (1/s)", info.dynamics.maximum_divergence);
+    row.number("Drift before correction", info.drift);
+    row.count("Repetitions", info.repetitions);
     row.count("Clamped faces", domain.n_clamped_faces);
     row.count("Rebuilds", n_rebuilds);
     row.count("Viscosity iterations", info.dynamics.viscosity_iterations);

@@ -107,6 +107,16 @@ namespace treacle
                      const double                   dt,
                      Guesses                       &guesses) const
   {
+    return locator.clamped(path_ends(x, velocity, dt, guesses));
+  }
+
+  template <int dim>
+  std::vector<Point<dim>>
+  Tracer<dim>::path_ends(const std::vector<Point<dim>> &x,
+                         const NodeVector<dim>         &velocity,
+                         const double                   dt,
+                         Guesses                       &guesses) const
+  {
     std::vector<NodeField<dim>> fields;
     for (const Vector &component : velocity.component)
       fields.push_back({&component});
@@ -123,7 +133,7 @@ namespace treacle
     std::vector<double>       k(k1.size());
     for (unsigned int i = 0; i < k.size(); ++i)
       k[i] = (2 * k1[i] + 3 * k2[i] + 4 * k3[i]) / 9;
-    return locator.clamped(advanced(k, dt));
+    return advanced(k, dt);
   }
 
   template class Tracer<2>;

@@ -35,6 +35,19 @@ namespace treacle
   }
 
   template <int dim>
+  void
+  Projection<dim>::carry_away(Vector &u, const Vector &inflow) const
+  {
+    Vector b = system.zeros(), q = system.zeros();
+    for (unsigned int i = 0; i < system.cells().size(); ++i)
+      b.local_element(i) = inflow.local_element(system.cells()[i]);
+    system.solve(q, b, 0.);
+    Vector q_cell = system.domain.mesh.zeros(system.domain.mesh.cells);
+    system.to_cells(q, q_cell);
+    system.push(q_cell, u);
+  }
+
+  template <int dim>
   double
   Projection<dim>::throughflow(const Vector &u) const
   {

@@ -52,11 +52,8 @@ namespace treacle
   } // namespace
 
   template <int dim>
-  std::unique_ptr<const SurfaceGeometry<dim>>
-  SurfaceTracking<dim>::advance(State<dim>          &state,
-                                const MeshData<dim> &data,
-                                const double         reach,
-                                const double         volume) const
+  void
+  SurfaceTracking<dim>::follow_markers(State<dim> &state, const double reach) const
   {
     if (has_markers())
       {
@@ -67,6 +64,14 @@ namespace treacle
       }
     else
       redistance(state, reach);
+  }
+
+  template <int dim>
+  std::unique_ptr<const SurfaceGeometry<dim>>
+  SurfaceTracking<dim>::settle(State<dim>          &state,
+                               const MeshData<dim> &data,
+                               const double         volume) const
+  {
     if (prm.volume_correction)
       correct_volume(state, data, volume);
     auto surface = std::make_unique<const SurfaceGeometry<dim>>(state.mesh, state.phi);

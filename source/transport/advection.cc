@@ -125,7 +125,8 @@ namespace treacle
   std::vector<Point<dim>>
   Advection<dim>::move_surface(const std::vector<Point<dim>> &x) const
   {
-    return Tracer<dim>(*old.mesh).trace(x, surface_velocity, dt);
+    Guesses none;
+    return Tracer<dim>(*old.mesh).path_ends(x, surface_velocity, dt, none);
   }
 
   template <int dim>
@@ -177,7 +178,9 @@ namespace treacle
 
   template <int dim>
   State<dim>
-  Advection<dim>::advance(std::shared_ptr<const Mesh<dim>> mesh, const double reach) const
+  Advection<dim>::advance(std::shared_ptr<const Mesh<dim>> mesh,
+                          const double                     reach,
+                          const SurfaceMotion              motion) const
   {
     State<dim> state(mesh);
     state.time = old.time + dt;
@@ -186,6 +189,11 @@ namespace treacle
       state.pressure = old.pressure;
     state.pressure.update_ghost_values();
     advance_nodes(state, reach);
+    if (motion == SurfaceMotion::none)
+      {
+        state.phi = old.phi;
+        state.phi.update_ghost_values();
+      }
     advance_faces(state, reach);
     return state;
   }

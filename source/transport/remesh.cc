@@ -250,6 +250,7 @@ namespace treacle
                         const Scene<dim>               &scene,
                         const SurfaceGeometry<dim>     &surface,
                         const Advection<dim>           &advection,
+                        const std::vector<Point<dim>>  &next,
                         const std::vector<Marker<dim>> &markers,
                         const double                    dt)
   {
@@ -257,7 +258,6 @@ namespace treacle
     if (!mesh.is_lattice())
       return state.mesh;
     const Octree<dim>            &octree  = mesh.octree();
-    const std::vector<Point<dim>> next    = advection.move_surface(surface.facets.positions);
     const auto is_needed = outside_solids(scene, mesh.finest_size(), state.time + dt);
     std::vector<BandPoint<dim>>   points;
     for (unsigned int k = 0; k < surface.facets.facets.size(); ++k)
@@ -290,6 +290,7 @@ namespace treacle
     const Scene<dim> &,                                                         \
     const SurfaceGeometry<dim> &,                                               \
     const Advection<dim> &,                                                     \
+    const std::vector<Point<dim>> &,                                            \
     const std::vector<Marker<dim>> &,                                           \
     const double);
   INSTANTIATE(2)

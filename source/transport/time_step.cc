@@ -73,6 +73,8 @@ namespace treacle
     double           dt       = prm.maximum;
     if (v + std::sqrt(v * v + 4 * g * distance) > 0)
       dt = std::min(dt, 2 * distance / (v + std::sqrt(v * v + 4 * g * distance)));
+    if (is_second_order() && state.before) // two steps of sizes further apart have only first
+      dt = std::min(dt, 2 * state.before->dt);
 
     // equal steps to the frame, or to where an emitter starts or stops
     const double left =

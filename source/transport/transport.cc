@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/fields/liquid_volume.h>
 #include <treacle/surface/emission.h>
 #include <treacle/surface/extrapolation.h>
 #include <treacle/surface/material_extension.h>
@@ -9,6 +10,13 @@
 
 namespace treacle
 {
+  namespace
+  {
+    /// Part of the volume that is pushed out of walls in a step, and not left to the even
+    /// correction: that lifts the whole body.
+    constexpr double least_lost = 1e-4;
+  } // namespace
+
   template <int dim>
   typename Transport<dim>::Info
   Transport<dim>::move_liquid(Liquid<dim>              &liquid,
@@ -22,12 +30,16 @@ namespace treacle
     const auto           markers = timing.measured("markers", [&] {
       return advection.move_markers();
     });
+    const auto           ends    = timing.measured("markers", [&] {
+      return advection.move_surface(liquid.surface->facets.positions);
+    });
     const auto           mesh    = timing.measured("mesh", [&] {
-      return mesh_for_next_surface(old, scene, *liquid.surface, advection, markers, difference.dt);
+      return mesh_for_next_surface(
+        old, scene, *liquid.surface, advection, ends, markers, difference.dt);
     });
     const bool           rebuilt = mesh != old.mesh;
     auto                 next    = timing.measured("advection", [&] {
-      return carry(old, advection, mesh, reach);
+      return carry(old, advection, mesh, reach, Advection<dim>::SurfaceMotion::carried);
     });
 
     const auto section = timing.section("surface");
@@ -35,12 +47,77 @@ namespace treacle
                                    liquid.mesh_data;
     next->markers        = to_owners(*mesh, markers);
     const double emitted = emit(*next, *data, difference.dt);
-    auto         surface =
-      tracking.advance(*next, *data, time_step.reach_of_distance(reach, *mesh), volume + emitted);
+    auto         lost    = lost_in_walls(
+      scene, *old.mesh, liquid.surface->facets, ends, old.time, next->time);
+    tracking.follow_markers(*next, time_step.reach_of_distance(reach, *mesh));
+    const double wanted  = volume + emitted;
+    const double won     = liquid_volume(*data, next->phi, next->time) - wanted;
+    double       missing = std::min(sum(lost, mesh->communicator()), -won);
+    if (!tracking.keeps_volume() || missing < least_lost * wanted)
+      missing = 0;
+    auto surface = tracking.settle(*next, *data, wanted - missing);
     if (next->material)
       extend_material(*next, *data);
     liquid = {std::move(data), std::move(next), std::move(surface), nullptr};
-    return {rebuilt, emitted};
+    return {rebuilt, emitted, std::move(lost), missing, (won + missing) / wanted};
+  }
+
+  namespace
+  {
+    /// Volume that the surface sweeps, outside of solids (m^dim/s). Collective.
+    template <int dim>
+    double
+    flux_through_surface(const Scene<dim> &scene, const Surface<dim> &surface, const State<dim> &state)
+    {
+      double      flux = 0;
+      std::string error;
+      for (unsigned int k = 0; k < surface.facets.size(); ++k)
+        {
+          const std::array<Point<dim>, dim> x = surface.facet_points(k);
+          Tensor<1, dim>                    v;
+          Point<dim>                        centre;
+          for (unsigned int i = 0; i < dim; ++i)
+            {
+              const auto &vertex = surface.vertices[surface.facets[k][i]];
+              v += ((1 - vertex.t) * state.v.value(vertex.a) + vertex.t * state.v.value(vertex.b)) / dim;
+              centre += x[i] / dim;
+            }
+          keep_error(error, [&] {
+            if (scene.solid_distance(centre, state.time) >= 0)
+              flux += area_vector<dim>(x) * v;
+          });
+        }
+      throw_first(state.mesh->communicator(), error);
+      return Utilities::MPI::sum(flux, state.mesh->communicator());
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  Transport<dim>::displace(Liquid<dim>      &liquid,
+                           const State<dim> &pushed,
+                           const double      swept,
+                           const double      volume) const
+  {
+    State<dim>  &state = *liquid.state;
+    const double reach = time_step.reach(state, *liquid.domain);
+    const double flux  = flux_through_surface(scene, liquid.surface->facets, pushed);
+    if (flux <= 0)
+      return;
+    const double         dt = std::min(swept / flux, 3.);
+    const Advection<dim> advection(
+      prm.advection, pushed, *liquid.domain, *liquid.surface, BackwardDifference(dt, pushed));
+    const std::vector<double> phi = advection.level_set(
+      {state.mesh->node_position.begin(),
+       state.mesh->node_position.begin() + state.mesh->n_owned_nodes()});
+    std::copy(phi.begin(), phi.end(), state.phi.begin());
+    state.phi.update_ghost_values();
+    state.markers = to_owners(*state.mesh, advection.move_markers());
+    liquid.surface =
+      tracking.advance(state, *liquid.mesh_data, time_step.reach_of_distance(reach, *state.mesh), volume);
+    if (state.material)
+      extend_material(state, *liquid.mesh_data);
+    liquid.domain.reset();
   }
 
   template <int dim>
@@ -48,9 +125,10 @@ namespace treacle
   Transport<dim>::carry(const State<dim>                       &old,
                         const Advection<dim>                   &advection,
                         const std::shared_ptr<const Mesh<dim>> &mesh,
-                        const double                            reach) const
+                        const double                            reach,
+                        const typename Advection<dim>::SurfaceMotion motion) const
   {
-    auto next = std::make_unique<State<dim>>(advection.advance(mesh, reach));
+    auto next = std::make_unique<State<dim>>(advection.advance(mesh, reach, motion));
     if (remembers(old.time))
       next->before = advection.velocity_before(*mesh);
     // the next solves begin with it
@@ -71,11 +149,12 @@ namespace treacle
     const auto           section = timing.section("advection");
     State<dim>          &old     = *liquid.state;
     const Advection<dim> advection(prm.advection, old, *liquid.domain, *liquid.surface, difference);
-    auto                 next =
-      carry(old, advection, old.mesh, time_step.reach(old, *liquid.domain));
-    next->phi                 = old.phi;
+    auto                 next = carry(old,
+                      advection,
+                      old.mesh,
+                      time_step.reach(old, *liquid.domain),
+                      Advection<dim>::SurfaceMotion::none);
     next->markers             = std::move(old.markers);
-    next->phi.update_ghost_values();
     liquid.domain.reset();
     liquid.state = std::move(next);
   }
@@ -96,6 +175,33 @@ namespace treacle
       state.before = std::move(before);
     state.time += difference.dt;
     ++state.step;
+  }
+
+  template <int dim>
+  VelocityBefore<dim>
+  Transport<dim>::mirrored(const State<dim> &now,
+                           const State<dim> &ahead,
+                           const double      dt,
+                           const bool        is_advected)
+  {
+    const auto mirror = [](Vector &v, const Vector &w) {
+      v.zero_out_ghost_values();
+      v.sadd(2, -1, w);
+      v.update_ghost_values();
+    };
+    VelocityBefore<dim> before{dt, {}, {}};
+    if (is_advected)
+      {
+        before.v = now.v;
+        for (unsigned int d = 0; d < dim; ++d)
+          mirror(before.v->component[d], ahead.v.component[d]);
+      }
+    else
+      {
+        before.u = now.u;
+        mirror(*before.u, ahead.u);
+      }
+    return before;
   }
 
   template <int dim>

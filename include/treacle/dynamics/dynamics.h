@@ -62,12 +62,15 @@ namespace treacle
             const BackwardDifference &difference,
             Timing                   &timing) const;
 
-    /// Node velocity from face velocity.
+    /// What walls, solids and the liquid's volume admit of a face velocity: the nearest one; and
+    /// the node velocity from it.
     void
-    reconstruct(Liquid<dim> &liquid) const
-    {
-      reconstruction.advance(*liquid.state, FaceFit<dim>(prm.face_fit, *liquid.domain));
-    }
+    admit(Liquid<dim> &liquid, Timing &timing) const;
+
+    /// A state of the liquid with the velocity that carries away what comes into its cells,
+    /// @p inflow (m^dim/s), and no other; null if the pressure is turned off.
+    std::unique_ptr<State<dim>>
+    outflow(const Liquid<dim> &liquid, const Vector &inflow, Timing &timing) const;
 
   private:
     /// A step on one surface.

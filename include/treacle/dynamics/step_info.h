@@ -15,6 +15,9 @@ namespace treacle
     double dt        = 0;     ///< s
     bool   rebuilt   = false; ///< the mesh is new
     double emitted   = 0;     ///< volume from emitters (m^dim)
+    double drift     = 0;     ///< of the volume, relative, before it was corrected
+
+    unsigned int repetitions = 0; ///< with half the size, for the drift was too large
     double wall_time = 0;     ///< s
 
     typename Dynamics<dim>::Info dynamics;

@@ -72,6 +72,24 @@ namespace treacle
     /// Each on the rank that owns the cell it lies in (of a lattice: the leaf); none without marker level set.
     std::vector<Marker<dim>> markers;
   };
+
+  /// With ghosts, which copies of vectors go without. Collective.
+  template <int dim>
+  std::unique_ptr<State<dim>>
+  copied(const State<dim> &state)
+  {
+    auto copy = std::make_unique<State<dim>>(state);
+    for (const Vector *vector : {&copy->phi, &copy->u, &copy->pressure})
+      vector->update_ghost_values();
+    copy->v.update_ghost_values();
+    if (copy->material)
+      copy->material->update_ghost_values();
+    if (copy->before && copy->before->v)
+      copy->before->v->update_ghost_values();
+    if (copy->before && copy->before->u)
+      copy->before->u->update_ghost_values();
+    return copy;
+  }
 } // namespace treacle
 
 #endif

@@ -53,7 +53,8 @@ namespace treacle
     }
 
     /// Where the paths through @p x lead in time @p dt (negative: where they come from), with
-    /// Ralston's Runge-Kutta method of order 3. Guesses are for x, then for the ends.
+    /// Ralston's Runge-Kutta method of order 3. Those that leave the mesh end at its boundary.
+    /// Guesses are for x, then for the ends.
     std::vector<Point<dim>>
     trace(const std::vector<Point<dim>> &x,
           const NodeVector<dim>         &velocity,
@@ -66,6 +67,13 @@ namespace treacle
       Guesses none;
       return trace(x, velocity, dt, none);
     }
+
+    /// The same, but paths may end outside of the mesh.
+    std::vector<Point<dim>>
+    path_ends(const std::vector<Point<dim>> &x,
+              const NodeVector<dim>         &velocity,
+              const double                   dt,
+              Guesses                       &guesses) const;
 
   private:
     void

@@ -43,6 +43,12 @@ namespace treacle
     unsigned int
     advance(State<dim> &state, const double step, const Pass pass) const;
 
+    /// Add to u the flow of least kinetic energy that carries away what comes into the pressure
+    /// cells, @p inflow (m^dim/s), one entry a cell; in a pocket without a free surface, what is
+    /// left once the mean is taken off.
+    void
+    carry_away(Vector &u, const Vector &inflow) const;
+
   private:
     /// What flows through the cells: the norm of the sums of |flux| (m^dim/s). Collective.
     double

@@ -15,15 +15,15 @@ namespace treacle
   struct Liquid
   {
     std::shared_ptr<const MeshData<dim>>        mesh_data;
-    std::unique_ptr<State<dim>>                 state;
-    std::unique_ptr<const SurfaceGeometry<dim>> surface;
-    std::unique_ptr<const LiquidDomain<dim>>    domain; ///< null while the liquid moves
+    std::shared_ptr<State<dim>>                 state;
+    std::shared_ptr<const SurfaceGeometry<dim>> surface;
+    std::shared_ptr<const LiquidDomain<dim>>    domain; ///< null while the liquid moves
 
     /// Measure where the liquid is now.
     void
     find(const typename LiquidDomain<dim>::Parameters &parameters)
     {
-      domain = std::make_unique<const LiquidDomain<dim>>(parameters, *state, *mesh_data);
+      domain = std::make_shared<const LiquidDomain<dim>>(parameters, *state, *mesh_data);
     }
   };
 } // namespace treacle

@@ -36,18 +36,36 @@ namespace treacle
       : prm(parameters)
     {}
 
-    /// @p state has phi and markers of the new time. Distances within @p reach (m);
-    /// with volume correction the surface is moved to restore @p volume (m^dim). Returns
-    /// the surface.
+    /// @p state has phi and markers of the new time, which correct it. Distances within
+    /// @p reach (m).
+    void
+    follow_markers(State<dim> &state, const double reach) const;
+
+    /// The surface, with volume correction moved to restore @p volume (m^dim), and with markers
+    /// where it has too few.
+    std::unique_ptr<const SurfaceGeometry<dim>>
+    settle(State<dim> &state, const MeshData<dim> &data, const double volume) const;
+
+    /// One after the other.
     std::unique_ptr<const SurfaceGeometry<dim>>
     advance(State<dim>          &state,
             const MeshData<dim> &data,
             const double         reach,
-            const double         volume) const;
+            const double         volume) const
+    {
+      follow_markers(state, reach);
+      return settle(state, data, volume);
+    }
 
     /// Markers, if there are to be any, on a surface that has too few.
     void
     reseed(State<dim> &state, const Scene<dim> &scene, const SurfaceGeometry<dim> &surface) const;
+
+    bool
+    keeps_volume() const
+    {
+      return prm.volume_correction;
+    }
 
   private:
     bool

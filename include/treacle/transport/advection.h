@@ -42,17 +42,26 @@ namespace treacle
               const SurfaceGeometry<dim> &surface,
               const BackwardDifference   &difference);
 
+    /// Does the surface go with the liquid, or stay?
+    enum class SurfaceMotion
+    {
+      carried,
+      none
+    };
+
     /// The state at old.time + dt: phi, carried material, and u of the faces that may carry
     /// liquid, which is what the backward difference starts from. MacCormack's correction
-    /// needs what is within @p reach (m) of the liquid.
+    /// needs what is within @p reach (m) of the liquid. A surface that stays needs the old mesh.
     State<dim>
-    advance(std::shared_ptr<const Mesh<dim>> mesh, const double reach) const;
+    advance(std::shared_ptr<const Mesh<dim>> mesh,
+            const double                     reach,
+            const SurfaceMotion              motion = SurfaceMotion::carried) const;
 
     /// The old velocity at the nodes of a new mesh, for the next backward difference.
     VelocityBefore<dim>
     velocity_before(const Mesh<dim> &mesh) const;
 
-    /// Where points of the surface are after dt.
+    /// Where points of the surface are after dt, or would be if there were no walls.
     std::vector<Point<dim>>
     move_surface(const std::vector<Point<dim>> &x) const;
 

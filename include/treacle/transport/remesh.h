@@ -19,7 +19,7 @@ namespace treacle
 
   /// The mesh for the surface after dt: the old one while the surface stays well
   /// inside its finest leaves, else a new one around it; from a file always the old one.
-  /// @p markers are those after dt. Emitters that have not stopped are surrounded by
+  /// @p next is where the surface's vertices and @p markers those after dt. Emitters that have not stopped are surrounded by
   /// finest leaves as the surface is. Collective.
   template <int dim>
   std::shared_ptr<const Mesh<dim>>
@@ -27,6 +27,7 @@ namespace treacle
                         const Scene<dim>               &scene,
                         const SurfaceGeometry<dim>     &surface,
                         const Advection<dim>           &advection,
+                        const std::vector<Point<dim>>  &next,
                         const std::vector<Marker<dim>> &markers,
                         const double                    dt);
 } // namespace treacle

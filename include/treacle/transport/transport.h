@@ -8,6 +8,7 @@
 #include <treacle/surface/liquid.h>
 #include <treacle/surface/surface_tracking.h>
 #include <treacle/transport/advection.h>
+#include <treacle/transport/lost_volume.h>
 #include <treacle/transport/time_step.h>
 
 namespace treacle
@@ -40,6 +41,13 @@ namespace treacle
     {
       bool   rebuilt = false; ///< the mesh is new
       double emitted = 0;     ///< volume from emitters (m^dim)
+
+      /// What went into walls and solids, and how much of it is missing now (m^dim); 0 if that is
+      /// not worth while to push out.
+      std::vector<LostVolume<dim>> lost;
+      double                       missing = 0;
+      /// How much of the volume the surface won otherwise, before it was corrected.
+      double drift = 0;
     };
 
     /// The surface moves, and all with it; @p volume is what the liquid had (m^dim).
@@ -48,6 +56,14 @@ namespace treacle
                 const BackwardDifference &difference,
                 const double              volume,
                 Timing                   &timing) const;
+
+    /// The surface moves on by @p pushed.v, and nothing else, until it has swept a volume (in
+    /// about a second); with volume correction to @p volume in all (m^dim).
+    void
+    displace(Liquid<dim>      &liquid,
+             const State<dim> &pushed,
+             const double      swept,
+             const double      volume) const;
 
     /// Velocity and material move on, but neither surface nor mesh.
     void
@@ -58,6 +74,14 @@ namespace treacle
     /// Nothing moves.
     void
     stay(State<dim> &state, const BackwardDifference &difference) const;
+
+    /// The velocity a step of @p dt before now, had it changed as it does until @p ahead, after
+    /// such a step: 2 now - ahead.
+    static VelocityBefore<dim>
+    mirrored(const State<dim> &now,
+             const State<dim> &ahead,
+             const double      dt,
+             const bool        is_advected);
 
     /// Velocity continued into the air as far as the liquid may go in a step.
     void
@@ -73,7 +97,8 @@ namespace treacle
     carry(const State<dim>                       &old,
           const Advection<dim>                   &advection,
           const std::shared_ptr<const Mesh<dim>> &mesh,
-          const double                            reach) const;
+          const double                            reach,
+          const typename Advection<dim>::SurfaceMotion motion) const;
 
     /// Is the velocity of now of use to the step after this one? Not before an emitter
     /// starts or stops.

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_time_stepping_h
+#define treacle_time_stepping_h
+
+#include <treacle/dynamics/step_info.h>
+#include <treacle/transport/transport.h>
+
+namespace treacle
+{
+  /// One time step: the liquid moves, then what acts on it changes its velocity.
+  template <int dim>
+  class TimeStepping
+  {
+  public:
+    /// All must outlive this object.
+    TimeStepping(const Scene<dim>                              &scene,
+                 const StepSwitches                            &switches,
+                 const typename LiquidDomain<dim>::Parameters  &liquid_domain,
+                 const Transport<dim>                          &movement,
+                 const Dynamics<dim>                           &dynamics,
+                 Timing                                        &timing)
+      : scene(scene)
+      , switches(switches)
+      , liquid_domain(liquid_domain)
+      , movement(movement)
+      , dynamics(dynamics)
+      , timing(timing)
+    {}
+
+    /// By dt, or less if the surface would win or lose too much, with the volume that the
+    /// liquid should have (m^dim) before it, and after it.
+    StepInfo<dim>
+    advance(Liquid<dim> &liquid, double &volume, const double dt) const;
+
+  private:
+    /// The first step of second order needs to know how the velocity changes, or the surface
+    /// would lag behind by g dt^2 / 2 for good: a step of the velocity alone tells, from
+    /// which that of the step before is continued.
+    void
+    find_velocity_before(Liquid<dim> &liquid, const double dt) const;
+
+    /// The liquid moves, all or part of @p dt. Returns the step that it took.
+    BackwardDifference
+    move(Liquid<dim> &liquid, const double dt, double &volume, StepInfo<dim> &info) const;
+
+    typename Transport<dim>::Info
+    transport(Liquid<dim> &liquid, const BackwardDifference &difference, const double volume) const;
+
+    /// What a step has pushed into walls and solids comes out again, by the least motion of the
+    /// liquid: had it known of them in time, it would not have gone there.
+    void
+    push_out(Liquid<dim>                         &liquid,
+             const typename Transport<dim>::Info &moved,
+             const double                         volume) const;
+
+    void
+    find(Liquid<dim> &liquid) const
+    {
+      timing.measured("liquid domain", [&] { liquid.find(liquid_domain); });
+    }
+
+    void
+    extend_velocity(Liquid<dim> &liquid) const
+    {
+      timing.measured("extrapolation", [&] { movement.extend_velocity(liquid); });
+    }
+
+    const Scene<dim>                             &scene;
+    const StepSwitches                           &switches;
+    const typename LiquidDomain<dim>::Parameters &liquid_domain;
+    const Transport<dim>                         &movement;
+    const Dynamics<dim>                          &dynamics;
+    Timing                                       &timing;
+  };
+} // namespace treacle
+
+#endif

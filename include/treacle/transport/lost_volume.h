@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_transport_lost_volume_h
+#define treacle_transport_lost_volume_h
+
+#include <treacle/scene/scene.h>
+#include <treacle/surface/liquid.h>
+
+namespace treacle
+{
+  /// Volume that a step has pushed into a wall or solid.
+  template <int dim>
+  struct LostVolume
+  {
+    Point<dim>     entry;   ///< where the wall's surface is crossed (m)
+    Tensor<1, dim> outward; ///< unit, out of the wall
+    double         volume;  ///< m^dim
+  };
+
+  /// Between the places of the surface's vertices before and after a step, of the facets of
+  /// this rank; what was in a solid before does not count. Sides of the box are walls too.
+  /// Throws a UserError on all ranks. Collective.
+  template <int dim>
+  std::vector<LostVolume<dim>>
+  lost_in_walls(const Scene<dim>              &scene,
+                const Mesh<dim>               &mesh,
+                const Surface<dim>            &surface,
+                const std::vector<Point<dim>> &after,
+                const double                   time_before,
+                const double                   time_after);
+
+  /// Its sum over all ranks (m^dim). Collective.
+  template <int dim>
+  double
+  sum(const std::vector<LostVolume<dim>> &lost, const MPI_Comm &comm);
+
+  /// The same by the pressure cells in front of the walls, within two leaves; what finds none is
+  /// left out. Collective.
+  template <int dim>
+  Vector
+  lost_by_cells(const LiquidDomain<dim> &domain, const std::vector<LostVolume<dim>> &lost);
+} // namespace treacle
+
+#endif

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/time_stepping.h>
+
+namespace treacle
+{
+  namespace
+  {
+    /// Part of the volume that a step may win or lose before it is repeated.
+    constexpr double largest_drift = 0.01;
+    /// What moves by less is not repeated.
+    constexpr double half_a_leaf = 0.5;
+
+    /// The liquid where it is, with another velocity.
+    template <int dim>
+    Liquid<dim>
+    with_state(const Liquid<dim> &liquid, std::unique_ptr<State<dim>> state)
+    {
+      return {liquid.mesh_data, std::move(state), liquid.surface, liquid.domain};
+    }
+  } // namespace
+
+  template <int dim>
+  StepInfo<dim>
+  TimeStepping<dim>::advance(Liquid<dim> &liquid, double &volume, const double dt) const
+  {
+    Timer wall;
+    if (movement.time_step.is_second_order() && !liquid.state->before)
+      find_velocity_before(liquid, dt);
+    scene.check_solids(liquid.state->time + dt);
+    StepInfo<dim>            info;
+    const BackwardDifference difference = move(liquid, dt, volume, info);
+    info.dynamics                       = dynamics.advance(liquid, difference, timing);
+    extend_velocity(liquid);
+    info.wall_time = wall.wall_time();
+    return info;
+  }
+
+  template <int dim>
+  BackwardDifference
+  TimeStepping<dim>::move(Liquid<dim>   &liquid,
+                          const double   dt,
+                          double        &volume,
+                          StepInfo<dim> &info) const
+  {
+    const Liquid<dim>             old = liquid;
+    BackwardDifference            difference(dt, *old.state);
+    typename Transport<dim>::Info moved = transport(liquid, difference, volume);
+    const double least_dt =
+      half_a_leaf * old.state->mesh->finest_size() / maximum_speed(*old.state, *old.domain);
+    while (std::abs(moved.drift) > largest_drift && difference.dt > least_dt)
+      {
+        Liquid<dim>                   half = old;
+        const BackwardDifference      half_difference(0.5 * difference.dt, *old.state);
+        typename Transport<dim>::Info half_moved = transport(half, half_difference, volume);
+        // where two halves lose more than the whole, the mesh is too coarse, not the step
+        if (std::abs(half_moved.drift) > 0.6 * std::abs(moved.drift))
+          break;
+        liquid     = std::move(half);
+        difference = half_difference;
+        moved      = std::move(half_moved);
+        ++info.repetitions;
+      }
+    find(liquid);
+    info.dt      = difference.dt;
+    info.rebuilt = moved.rebuilt;
+    info.emitted = moved.emitted;
+    info.drift   = moved.drift;
+    volume += moved.emitted;
+    if (moved.missing > 0)
+      push_out(liquid, moved, volume);
+    return difference;
+  }
+
+  template <int dim>
+  void
+  TimeStepping<dim>::find_velocity_before(Liquid<dim> &liquid, const double dt) const
+  {
+    Liquid<dim> ahead = with_state(liquid, copied(*liquid.state));
+    const BackwardDifference difference(dt, *ahead.state);
+    if (switches.advection)
+      movement.move_velocity(ahead, difference, timing);
+    else
+      timing.measured("advection", [&] { movement.stay(*ahead.state, difference); });
+    find(ahead);
+    dynamics.advance(ahead, difference, timing);
+    extend_velocity(ahead);
+    liquid.state->before =
+      Transport<dim>::mirrored(*liquid.state, *ahead.state, dt, switches.advection);
+  }
+
+  template <int dim>
+  typename Transport<dim>::Info
+  TimeStepping<dim>::transport(Liquid<dim>              &liquid,
+                               const BackwardDifference &difference,
+                               const double              volume) const
+  {
+    typename Transport<dim>::Info moved;
+    if (switches.surface)
+      moved = movement.move_liquid(liquid, difference, volume, timing);
+    else if (switches.advection)
+      movement.move_velocity(liquid, difference, timing);
+    else
+      timing.measured("advection", [&] { movement.stay(*liquid.state, difference); });
+    return moved;
+  }
+
+  template <int dim>
+  void
+  TimeStepping<dim>::push_out(Liquid<dim>                         &liquid,
+                              const typename Transport<dim>::Info &moved,
+                              const double                         volume) const
+  {
+    Liquid<dim> pushed =
+      with_state(liquid, dynamics.outflow(liquid, lost_by_cells(*liquid.domain, moved.lost), timing));
+    if (!pushed.state)
+      return;
+    extend_velocity(pushed);
+    timing.measured("surface", [&] {
+      movement.displace(liquid, *pushed.state, moved.missing, volume);
+    });
+    find(liquid);
+    // a blow: how the velocity changed until now tells nothing of how it will
+    if (moved.missing > 1e-3 * volume)
+      liquid.state->before.reset();
+  }
+
+  template class TimeStepping<2>;
+  template class TimeStepping<3>;
+} // namespace treacle

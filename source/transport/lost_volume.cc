@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exchange.h>
+#include <treacle/transport/lost_volume.h>
+
+namespace treacle
+{
+  namespace
+  {
+    /// How deep in a wall a point is (m), negative outside, and the way out of it.
+    template <int dim>
+    struct Depth
+    {
+      double         value;
+      Tensor<1, dim> outward;
+    };
+
+    /// Beyond the nearest side of the box.
+    template <int dim>
+    Depth<dim>
+    depth_beyond(const BoundingBox<dim> &box, const Point<dim> &x)
+    {
+      Depth<dim> deepest{-std::numeric_limits<double>::max(), {}};
+      for (unsigned int side = 0; side < 2 * dim; ++side)
+        {
+          const unsigned int d    = side / 2;
+          const double       sign = side % 2 == 0 ? 1 : -1;
+          const double value = sign * ((side % 2 == 0 ? box.lower_bound(d) : box.upper_bound(d)) - x[d]);
+          if (value > deepest.value)
+            {
+              deepest            = {value, {}};
+              deepest.outward[d] = sign;
+            }
+        }
+      return deepest;
+    }
+
+    /// In the solids; @p h is the length that slopes are taken over, for an expression need
+    /// not be a distance.
+    template <int dim>
+    Depth<dim>
+    depth_in_solids(const Scene<dim> &scene, const Point<dim> &x, const double time, const double h)
+    {
+      Tensor<1, dim> slope;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          Point<dim> lower = x, upper = x;
+          lower[d] -= 0.5 * h;
+          upper[d] += 0.5 * h;
+          slope[d] = (scene.solid_distance(upper, time) - scene.solid_distance(lower, time)) / h;
+        }
+      const double steepness = slope.norm();
+      return steepness == 0 ? Depth<dim>{0, {}} :
+                              Depth<dim>{-scene.solid_distance(x, time) / steepness, slope / steepness};
+    }
+
+    template <int dim>
+    Depth<dim>
+    depth_in_walls(const Scene<dim> &scene, const Mesh<dim> &mesh, const Point<dim> &x, const double time)
+    {
+      const Depth<dim> beyond = depth_beyond(mesh.box(), x);
+      // few points are in solids, and the slope costs more than the distance
+      if (!scene.has_solids() || scene.solid_distance(x, time) >= 0)
+        return beyond;
+      const Depth<dim> inside = depth_in_solids(scene, x, time, 0.1 * mesh.finest_size());
+      return inside.value > beyond.value ? inside : beyond;
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<LostVolume<dim>>
+  lost_in_walls(const Scene<dim>              &scene,
+                const Mesh<dim>               &mesh,
+                const Surface<dim>            &surface,
+                const std::vector<Point<dim>> &after,
+                const double                   time_before,
+                const double                   time_after)
+  {
+    std::vector<Depth<dim>> depth(after.size(), {0, {}});
+    std::string             error;
+    keep_error(error, [&] {
+      for (unsigned int i = 0; i < after.size(); ++i)
+        if (depth_in_walls(scene, mesh, surface.positions[i], time_before).value <= 0)
+          depth[i] = depth_in_walls(scene, mesh, after[i], time_after);
+    });
+    throw_first(mesh.communicator(), error);
+    std::vector<LostVolume<dim>> lost;
+    for (unsigned int k = 0; k < surface.facets.size(); ++k)
+      {
+        const Tensor<1, dim> area = area_vector<dim>(surface.facet_points(k, after));
+        for (const unsigned int i : surface.facets[k])
+          if (depth[i].value > 0)
+            lost.push_back({after[i] + depth[i].value * depth[i].outward,
+                            depth[i].outward,
+                            -depth[i].value * (area * depth[i].outward) / dim});
+      }
+    return lost;
+  }
+
+  template <int dim>
+  double
+  sum(const std::vector<LostVolume<dim>> &lost, const MPI_Comm &comm)
+  {
+    double volume = 0;
+    for (const LostVolume<dim> &part : lost)
+      volume += part.volume;
+    return Utilities::MPI::sum(volume, comm);
+  }
+
+  namespace
+  {
+    /// A point, then the entry, the way out and the volume.
+    template <int dim>
+    using Sent = std::array<double, 3 * dim + 1>;
+
+    template <int dim>
+    Sent<dim>
+    packed(const Point<dim> &point, const LostVolume<dim> &part)
+    {
+      Sent<dim> numbers;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          numbers[d]           = point[d];
+          numbers[dim + d]     = part.entry[d];
+          numbers[2 * dim + d] = part.outward[d];
+        }
+      numbers[3 * dim] = part.volume;
+      return numbers;
+    }
+
+    template <int dim>
+    std::pair<Point<dim>, LostVolume<dim>>
+    unpacked(const Sent<dim> &numbers)
+    {
+      std::pair<Point<dim>, LostVolume<dim>> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          result.first[d]          = numbers[d];
+          result.second.entry[d]   = numbers[dim + d];
+          result.second.outward[d] = numbers[2 * dim + d];
+        }
+      result.second.volume = numbers[3 * dim];
+      return result;
+    }
+
+    /// Send each part to the owner of the cell at @p offset (m) from the wall, whose volume grows
+    /// if it is a pressure cell; returns those without one. Collective.
+    template <int dim>
+    std::vector<LostVolume<dim>>
+    add_to_cells(Vector                             &volume,
+                 const LiquidDomain<dim>            &domain,
+                 const std::vector<LostVolume<dim>> &lost,
+                 const double                        offset)
+    {
+      const Mesh<dim>        &mesh = domain.mesh;
+      const MPI_Comm         &comm = mesh.communicator();
+      std::vector<Point<dim>> x;
+      for (const LostVolume<dim> &part : lost)
+        x.push_back(part.entry + offset * part.outward);
+      const auto                              owners = mesh.locator().owners(x);
+      PerRank<Sent<dim>> to_rank(Utilities::MPI::n_mpi_processes(comm));
+      for (unsigned int i = 0; i < lost.size(); ++i)
+        to_rank[owners[i].rank].push_back(packed(owners[i].point, lost[i]));
+      std::vector<LostVolume<dim>> left;
+      for (const auto &received : send_and_receive(comm, to_rank))
+        for (const Sent<dim> &numbers : received)
+          {
+            const auto [point, part] = unpacked<dim>(numbers);
+            const LocalIndex cell    = mesh.locator().locate_here(point).cell;
+            if (domain.is_pressure_cell[cell])
+              volume.local_element(cell) += part.volume;
+            else
+              left.push_back(part);
+          }
+      return left;
+    }
+  } // namespace
+
+  template <int dim>
+  Vector
+  lost_by_cells(const LiquidDomain<dim> &domain, const std::vector<LostVolume<dim>> &lost)
+  {
+    Vector                       volume = domain.mesh.zeros(domain.mesh.cells);
+    std::vector<LostVolume<dim>> left   = lost;
+    for (const double leaves : {0.5, 1., 2.})
+      left = add_to_cells(volume, domain, left, leaves * domain.mesh.finest_size());
+    volume.compress(VectorOperation::add); // an owner of a leaf does not own all cells over it
+    return volume;
+  }
+
+#define INSTANTIATE(dim)                                                                      \
+  template std::vector<LostVolume<dim>> lost_in_walls(const Scene<dim> &,                     \
+                                                      const Mesh<dim> &,                      \
+                                                      const Surface<dim> &,                   \
+                                                      const std::vector<Point<dim>> &,        \
+                                                      const double,                           \
+                                                      const double);                          \
+  template double sum(const std::vector<LostVolume<dim>> &, const MPI_Comm &);                \
+  template Vector lost_by_cells(const LiquidDomain<dim> &, const std::vector<LostVolume<dim>> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace treacle

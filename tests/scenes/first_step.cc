@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+// A pool that is given a velocity into walls and floor, which slip: it keeps its volume and gains
+// no energy. A ball at rest falls by g t^2 / 2 from the first step on.
+
+#include "../run_scene.h"
+#include "../tests.h"
+
+namespace tests::scenes_first_step
+{
+namespace
+{
+  double
+  energy(const Row &row)
+  {
+    return row.at("Potential energy (J)") + row.at("Kinetic energy (J)");
+  }
+
+  template <int dim>
+  std::string
+  corner(const std::string &value)
+  {
+    return dim == 2 ? value + ", " + value : value + ", " + value + ", " + value;
+  }
+
+  template <int dim>
+  std::string
+  mesh(const std::string &level)
+  {
+    return "subsection Mesh\nset Surface level = " + level + "\nset Interior level = " + level +
+           "\nset Air level = 2\nend\n";
+  }
+
+  template <int dim>
+  void
+  pushed_pool(const MPI_Comm &comm)
+  {
+    const std::string up  = dim == 2 ? "0, 1" : "0, 0, 1";
+    const auto        rows = run_scene<dim>(
+      comm,
+      mesh<dim>(dim == 2 ? "4" : "3") +
+        "set End time = 0.09\nset Frame interval = 0.03\nset Maximum time step = 0.03\n"
+        "subsection Domain\nset Wall condition = default: free slip\nend\n"
+        "subsection Surface tracking\nset Volume correction = false\nend\n"
+        "subsection Liquid 1\nset Shape = half space\nset Centre = " +
+        corner<dim>("0.3") + "\nset Normal = " + up + "\nset Velocity = " +
+        (dim == 2 ? "-1.5; -1.1" : "-1.5; 0; -1.1") + "\nend\n");
+    const double first = energy(rows.front());
+    double       worst = 0;
+    for (const Row &row : rows)
+      worst = std::max(worst, energy(row) / first);
+    out() << dim << "D pool: volume " << rows.at(1).at("Liquid volume (m^" + std::to_string(dim) + ")") /
+                                          rows.at(0).at("Liquid volume (m^" + std::to_string(dim) + ")")
+          << " of the first after a step, energy at most " << worst << " of the first" << std::endl;
+  }
+
+  template <int dim>
+  void
+  fall(const MPI_Comm &comm)
+  {
+    const auto rows = run_scene<dim>(
+      comm,
+      mesh<dim>(dim == 2 ? "5" : "4") +
+        "set End time = 0.04\nset Frame interval = 0.02\nset Maximum time step = 0.02\n"
+        "subsection Liquid 1\nset Centre = " + corner<dim>("0.5") + "\nset Radius = 0.2\nend\n");
+    const double g = 9.81, volume = rows.at(0).at("Liquid volume (m^" + std::to_string(dim) + ")");
+    out() << dim << "D ball, fallen by";
+    for (const Row &row : rows)
+      {
+        const double t = row.at("Time (s)");
+        const double fallen =
+          (rows.front().at("Potential energy (J)") - row.at("Potential energy (J)")) / (1000 * g * volume);
+        if (t > 0)
+          out() << ' ' << fallen / (0.5 * g * t * t);
+      }
+    out() << " of g t^2 / 2" << std::endl;
+  }
+} // namespace
+
+void
+start(const int, char **)
+{
+  out() << std::setprecision(3);
+  on_1_2_3_ranks([](const MPI_Comm &comm) {
+    pushed_pool<2>(comm);
+    pushed_pool<3>(comm);
+    fall<2>(comm);
+    fall<3>(comm);
+  });
+}
+
+const Test test("scenes/first_step", start);
+} // namespace tests::scenes_first_step

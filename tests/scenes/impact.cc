@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+// A block falls on the floor, and on a solid, by more than a leaf a step: what a step pushes into
+// them comes out again in the same step, and the energy does not rise.
+
+#include "../run_scene.h"
+#include "../tests.h"
+
+namespace tests::scenes_impact
+{
+namespace
+{
+  template <int dim>
+  std::string
+  corner(const std::string &horizontal, const std::string &vertical)
+  {
+    return horizontal + (dim == 2 ? ", " : ", " + horizontal + ", ") + vertical;
+  }
+
+  template <int dim>
+  void
+  land(const MPI_Comm &comm, const std::string &name, const std::string &solid)
+  {
+    const std::string level = dim == 2 ? "4" : "3", dt = dim == 2 ? "0.05" : "0.1";
+    const auto        rows  = run_scene<dim>(
+      comm,
+      "set End time = 0.4\nset Frame interval = " + dt + "\nset Maximum time step = " + dt +
+        "\nsubsection Mesh\nset Surface level = " + level + "\nset Interior level = " + level +
+        "\nset Air level = 2\nend\nsubsection Material\nset Viscosity = 10\nend\n"
+        "subsection Liquid 1\nset Shape = box\nset Lower corner = " +
+        corner<dim>("0.3", "0.45") + "\nset Upper corner = " + corner<dim>("0.7", "0.75") + "\nend\n" +
+        solid,
+      solid.empty() ? 0 : 1);
+    double     drift = 0, rise = 0, least = std::numeric_limits<double>::max();
+    const auto energy = [](const Row &row) {
+      return row.at("Potential energy (J)") + row.at("Kinetic energy (J)");
+    };
+    for (const Row &row : rows)
+      {
+        drift = std::max(drift, std::abs(row.at("Volume drift")));
+        least = std::min(least, energy(row));
+        rise  = std::max(rise, (energy(row) - least) / energy(rows.front()));
+      }
+    out() << dim << "D, on " << name << ": volume off by at most " << 100 * drift
+          << " %, energy rises by " << 100 * rise << " % at most" << std::endl;
+  }
+
+  template <int dim>
+  void
+  check(const MPI_Comm &comm)
+  {
+    land<dim>(comm, "the floor", "");
+    land<dim>(comm,
+              "a solid",
+              "subsection Solid 1\nset Shape = box\nset Lower corner = " + corner<dim>("-1", "-1") +
+                "\nset Upper corner = " + corner<dim>("2", "0.22") + "\nend\n");
+  }
+} // namespace
+
+void
+start(const int, char **)
+{
+  out() << std::setprecision(2);
+  on_1_2_3_ranks([](const MPI_Comm &comm) {
+    check<2>(comm);
+    check<3>(comm);
+  });
+}
+
+const Test test("scenes/impact", start);
+} // namespace tests::scenes_impact
