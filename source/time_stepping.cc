@@ -31,10 +31,30 @@ namespace treacle
     scene.check_solids(liquid.state->time + dt);
     StepInfo<dim>            info;
     const BackwardDifference difference = move(liquid, dt, volume, info);
+    const NodeVector<dim>    expected   = liquid.state->v;
     info.dynamics                       = dynamics.advance(liquid, difference, timing);
     extend_velocity(liquid);
+    forget_blows(*liquid.state, *liquid.domain, expected);
     info.wall_time = wall.wall_time();
     return info;
+  }
+
+  template <int dim>
+  void
+  TimeStepping<dim>::forget_blows(State<dim>              &state,
+                                  const LiquidDomain<dim> &domain,
+                                  const NodeVector<dim>   &expected)
+  {
+    if (!state.before || !state.before->v)
+      return;
+    const double least = 0.1 * maximum_speed(state, domain);
+    for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
+      {
+        const Tensor<1, dim> v = state.v.value(node), w = expected.value(node);
+        if ((v - w).norm() > std::max(least, 0.5 * std::max(v.norm(), w.norm())))
+          state.before->v->set(node, v);
+      }
+    state.before->v->update_ghost_values();
   }
 
   template <int dim>

@@ -55,6 +55,11 @@ namespace treacle
              const typename Transport<dim>::Info &moved,
              const double                         volume) const;
 
+    /// Where the velocity is not what the past made expect, there was a blow; continued over it,
+    /// the past points the wrong way: what falls would bounce. It is forgotten there.
+    static void
+    forget_blows(State<dim> &state, const LiquidDomain<dim> &domain, const NodeVector<dim> &expected);
+
     void
     find(Liquid<dim> &liquid) const
     {

@@ -242,15 +242,23 @@ namespace treacle
   void
   LiquidDomain<dim>::measure_nodes(const State<dim> &state)
   {
-    Vector active = mesh.zeros(mesh.nodes);
+    constexpr double light = 1e-3; // of the volume of its cells
+    Vector           active = mesh.zeros(mesh.nodes);
+    is_light_node.assign(mesh.node_position.size(), 0);
     node_mass.assign(mesh.node_position.size(), 0);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
-        if (const LocalIndex c = mesh.node_cells[k]; is_active_cell[c])
-          {
-            active.local_element(node) = 1;
-            node_mass[node] += density[c] * liquid_volume[c] / (dim + 1);
-          }
+      {
+        double liquid = 0, all = 0;
+        for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+          if (const LocalIndex c = mesh.node_cells[k]; is_active_cell[c])
+            {
+              active.local_element(node) = 1;
+              node_mass[node] += density[c] * liquid_volume[c] / (dim + 1);
+              liquid += liquid_volume[c];
+              all += open_volume(c);
+            }
+        is_light_node[node] = active.local_element(node) > 0 && liquid < light * all;
+      }
     active.update_ghost_values();
     is_active_node.resize(node_mass.size());
     for (LocalIndex node = 0; node < node_mass.size(); ++node)

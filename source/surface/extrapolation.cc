@@ -7,6 +7,48 @@
 
 namespace treacle
 {
+  namespace
+  {
+    /// Nodes whose velocity is to be found, and where the surface is nearest to them.
+    template <int dim>
+    struct Extension
+    {
+      std::vector<LocalIndex> nodes;
+      std::vector<Point<dim>> sources;
+      Vector                  is_known; ///< 1 at all nodes whose velocity is not
+    };
+
+    /// All but those of the liquid; those that are too far away rest.
+    template <int dim>
+    Extension<dim>
+    find_sources(State<dim>                 &state,
+                 const LiquidDomain<dim>    &domain,
+                 const SurfaceDistance<dim> &facets,
+                 const double                reach)
+    {
+      const Mesh<dim> &mesh = domain.mesh;
+      Extension<dim>   result{{}, {}, mesh.zeros(mesh.nodes)};
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        if (domain.is_active_node[node] && !domain.is_light_node[node])
+          result.is_known.local_element(node) = 1;
+        else
+          {
+            state.v.set(node, Tensor<1, dim>());
+            const double distance = std::abs(state.phi.local_element(node));
+            if (distance >= reach)
+              continue;
+            const auto nearest = facets.nearest(mesh.node_position[node], distance);
+            if (!std::isfinite(nearest.distance))
+              continue;
+            result.nodes.push_back(node);
+            result.sources.push_back(nearest.point);
+          }
+      state.v.update_ghost_values();
+      result.is_known.update_ghost_values();
+      return result;
+    }
+  } // namespace
+
   template <int dim>
   void
   extrapolate(State<dim>                 &state,
@@ -14,33 +56,18 @@ namespace treacle
               const SurfaceGeometry<dim> &surface,
               const double                reach)
   {
-    const Mesh<dim>            &mesh  = domain.mesh;
-    const SurfaceDistance<dim> &facets = surface.distance(reach);
-
-    std::vector<LocalIndex> nodes;
-    std::vector<Point<dim>> sources;
-    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      if (!domain.is_active_node[node])
-        {
-          state.v.set(node, Tensor<1, dim>());
-          const double distance = std::abs(state.phi.local_element(node));
-          if (distance >= reach)
-            continue;
-          const auto nearest = facets.nearest(mesh.node_position[node], distance);
-          if (!std::isfinite(nearest.distance))
-            continue;
-          nodes.push_back(node);
-          sources.push_back(nearest.point);
-        }
-    state.v.update_ghost_values();
-
+    const Mesh<dim>     &mesh = domain.mesh;
+    const Extension<dim> extension =
+      find_sources(state, domain, surface.distance(reach), reach);
     std::vector<NodeField<dim>> fields;
     for (const Vector &component : state.v.component)
       fields.push_back({&component});
-    const std::vector<double> values = Tracer<dim>(mesh).evaluate(sources, fields);
-    for (unsigned int i = 0; i < nodes.size(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-        state.v.component[d].local_element(nodes[i]) = values[i * dim + d];
+    fields.push_back({&extension.is_known}); // the part of the point's cell that counts
+    const std::vector<double> values = Tracer<dim>(mesh).evaluate(extension.sources, fields);
+    for (unsigned int i = 0; i < extension.nodes.size(); ++i)
+      if (const double *value = &values[i * (dim + 1)]; value[dim] > 0)
+        for (unsigned int d = 0; d < dim; ++d)
+          state.v.component[d].local_element(extension.nodes[i]) = value[d] / value[dim];
     set_prescribed(domain, state.v);
 
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
