@@ -123,9 +123,7 @@ class Verdict:
     """What a run of a scene did, from its statistics: all relative."""
 
     def __init__(self, scene, table):
-        energy = table["Potential energy (J)"] + table["Kinetic energy (J)"]
-        potential = table["Potential energy (J)"]
-        volume = table[f"Liquid volume (m^{scene.dim})"]
+        energy = [p + k for p, k in zip(table["Potential energy (J)"], table["Kinetic energy (J)"])]
         self.n_steps = len(energy) - 1
         scale = max(energy[0], 1e-30)
         least = energy[0]
@@ -135,7 +133,7 @@ class Verdict:
             self.energy_gained = max(self.energy_gained, (value - least) / scale)
         if not scene.is_closed():
             self.energy_gained = 0.0
-        self.drift = max(abs(table["Volume drift"]))
+        self.drift = max(map(abs, table["Volume drift"]))
         self.largest_step_drift = max(map(abs, table.get("Drift before correction", [0])))
         self.repetitions = int(sum(table.get("Repetitions", [0])))
         self.fallbacks = int(sum(table["Fallbacks"]))
@@ -143,4 +141,3 @@ class Verdict:
         # all of the box's height fallen through, and squeezed out between bodies at twice that
         allowed = 2 * math.sqrt(scene.speed ** 2 + 2 * 9.81 * 1)
         self.speed = fastest / allowed
-        self.is_empty = not (volume[-1] > 0 and potential[-1] == potential[-1])

@@ -2,12 +2,13 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/choice.h>
-#include <treacle/mesh/tracer.h>
+#include <treacle/fields/face_node.h>
 #include <treacle/surface/marker_motion.h>
 #include <treacle/transport/advection.h>
 #include <treacle/transport/back_and_forth.h>
 #include <treacle/transport/surface_velocity.h>
 #include <treacle/transport/time_step.h>
+#include <treacle/transport/velocity_in_time.h>
 
 namespace treacle
 {
@@ -18,33 +19,6 @@ namespace treacle
     owned_nodes(const Mesh<dim> &mesh)
     {
       return {mesh.node_position.begin(), mesh.node_position.begin() + mesh.n_owned_nodes()};
-    }
-
-    /// a v + b w
-    template <int dim>
-    NodeVector<dim>
-    combined(const double a, const NodeVector<dim> &v, const double b, const NodeVector<dim> &w)
-    {
-      NodeVector<dim> result = v;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          result.component[d].zero_out_ghost_values();
-          result.component[d].sadd(a, b, w.component[d]);
-        }
-      result.update_ghost_values();
-      return result;
-    }
-
-    /// After a part of the step: as steady as it was before it.
-    template <int dim>
-    NodeVector<dim>
-    velocity_after(const double              part_of_step,
-                   const State<dim>         &old,
-                   const BackwardDifference &difference)
-    {
-      const double part =
-        difference.before == 0 ? 0. : part_of_step * difference.dt / old.before->dt;
-      return combined(1 + part, old.v, -part, part == 0 ? old.v : *old.before->v);
     }
 
     /// The faces that may carry liquid: a node of them is in it, or will be once markers have
@@ -238,40 +212,106 @@ namespace treacle
   }
 
   template <int dim>
+  std::vector<double>
+  Advection<dim>::carried_velocity(const NodeVector<dim>         &v,
+                                   const std::vector<Point<dim>> &from,
+                                   Guesses                       &guesses,
+                                   const double                   elapsed,
+                                   const double                   reach) const
+  {
+    std::vector<const Vector *> components(dim);
+    for (unsigned int d = 0; d < dim; ++d)
+      components[d] = &v.component[d];
+    return carried(components, velocity, from, guesses, elapsed, reach);
+  }
+
+  template <int dim>
+  std::vector<double>
+  Advection<dim>::change_along_paths(const std::vector<Point<dim>> &x,
+                                     Guesses                       &guesses,
+                                     const double                   reach) const
+  {
+    const Tracer<dim>     tracer(*old.mesh);
+    const NodeVector<dim> mean    = combined(0.5, old.v, 0.5, *old.before->v);
+    const auto            from    = tracer.trace(x, velocity, -dt, guesses);
+    std::vector<double>   change  = carried_velocity(old.v, from, guesses, dt, reach);
+    const auto            further = tracer.trace(from, mean, -old.before->dt, guesses);
+    const auto            before =
+      carried_velocity(*old.before->v, further, guesses, dt + old.before->dt, reach);
+    std::transform(change.begin(), change.end(), before.begin(), change.begin(), std::minus<>());
+    return change;
+  }
+
+  template <int dim>
+  NodeVector<dim>
+  Advection<dim>::change_at_nodes(const Mesh<dim>               &mesh,
+                                  const std::vector<LocalIndex> &faces,
+                                  const double                   reach) const
+  {
+    Vector is_needed = mesh.zeros(mesh.nodes);
+    for (const LocalIndex f : faces)
+      for (const LocalIndex node : mesh.face_nodes[f])
+        is_needed.local_element(node) = 1;
+    is_needed.compress(VectorOperation::add);
+    std::vector<LocalIndex> nodes, guesses;
+    std::vector<Point<dim>> x;
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      if (is_needed.local_element(node) > 0)
+        {
+          nodes.push_back(node);
+          x.push_back(mesh.node_position[node]);
+          if (&mesh == old.mesh.get())
+            guesses.push_back(mesh.node_cells[mesh.node_cell_start[node]]);
+        }
+    const std::vector<double> values = change_along_paths(x, guesses, reach);
+    NodeVector<dim>           change(mesh.nodes);
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        change.component[d].local_element(nodes[i]) = values[dim * i + d];
+    change.update_ghost_values();
+    return change;
+  }
+
+  template <int dim>
   void
   Advection<dim>::advance_faces(State<dim> &state, const double reach) const
   {
-    const Mesh<dim>              &mesh  = *state.mesh;
-    const std::vector<LocalIndex> faces = faces_that_matter(state);
-    std::vector<Point<dim>>       x;
-    Guesses                       guesses;
-    for (const LocalIndex f : faces)
-      x.push_back(mesh.face_centre[f]);
-    if (&mesh == old.mesh.get())
-      for (const LocalIndex f : faces)
-        guesses.push_back(std::min(mesh.face_cells[f][0], mesh.face_cells[f][1]));
-    const auto add = [&](const double                   weight,
-                         const NodeVector<dim>         &v,
-                         const std::vector<Point<dim>> &from,
-                         const double                   elapsed) {
-      std::vector<const Vector *> components;
-      for (const Vector &component : v.component)
-        components.push_back(&component);
-      const std::vector<double> values = carried(components, velocity, from, guesses, elapsed, reach);
-      for (unsigned int i = 0; i < faces.size(); ++i)
+    const Mesh<dim>        &mesh  = *state.mesh;
+    std::vector<LocalIndex> faces = faces_that_matter(state);
+    const auto              inner = // first those whose nodes are all in the liquid
+      std::stable_partition(faces.begin(), faces.end(), [&](const LocalIndex f) {
+        return std::all_of(mesh.face_nodes[f].begin(), mesh.face_nodes[f].end(), [&](const auto node) {
+          return state.phi.local_element(node) <= 0;
+        });
+      });
+    const auto add = [&](const auto begin, const auto end, const double weight, const auto &at) {
+      std::vector<Point<dim>> x;
+      Guesses                 guesses;
+      for (auto f = begin; f != end; ++f)
+        {
+          x.push_back(mesh.face_centre[*f]);
+          if (&mesh == old.mesh.get())
+            guesses.push_back(std::min(mesh.face_cells[*f][0], mesh.face_cells[*f][1]));
+        }
+      const std::vector<double> values = at(x, guesses);
+      for (unsigned int i = 0; i < x.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
-          state.u.local_element(faces[i]) +=
-            weight * mesh.face_normal[faces[i]][d] * values[dim * i + d];
+          state.u.local_element(begin[i]) +=
+            weight * mesh.face_normal[begin[i]][d] * values[dim * i + d];
     };
-    const Tracer<dim>             tracer(*old.mesh);
-    const std::vector<Point<dim>> from = tracer.trace(x, velocity, -dt, guesses);
-    add(difference.now, old.v, from, dt);
+    add(faces.begin(), faces.end(), 1, [&](const auto &x, Guesses &guesses) {
+      const auto from = Tracer<dim>(*old.mesh).trace(x, velocity, -dt, guesses);
+      return carried_velocity(old.v, from, guesses, dt, reach);
+    });
     if (difference.before != 0)
-      add(difference.before,
-          *old.before->v,
-          tracer.trace(
-            from, combined(0.5, old.v, 0.5, *old.before->v), -old.before->dt, guesses),
-          dt + old.before->dt);
+      {
+        const NodeVector<dim> change = change_at_nodes(mesh, {faces.begin(), inner}, reach);
+        for (auto f = faces.begin(); f != inner; ++f)
+          state.u.local_element(*f) -= difference.before * face_velocity(mesh, change, *f);
+        add(inner, faces.end(), -difference.before, [&](const auto &x, Guesses &guesses) {
+          return change_along_paths(x, guesses, reach);
+        });
+      }
     state.u.update_ghost_values();
   }
 

@@ -7,6 +7,7 @@
 #include <treacle/surface/material_extension.h>
 #include <treacle/transport/remesh.h>
 #include <treacle/transport/transport.h>
+#include <treacle/transport/velocity_in_time.h>
 
 namespace treacle
 {
@@ -184,22 +185,15 @@ namespace treacle
                            const double      dt,
                            const bool        is_advected)
   {
-    const auto mirror = [](Vector &v, const Vector &w) {
-      v.zero_out_ghost_values();
-      v.sadd(2, -1, w);
-      v.update_ghost_values();
-    };
     VelocityBefore<dim> before{dt, {}, {}};
     if (is_advected)
-      {
-        before.v = now.v;
-        for (unsigned int d = 0; d < dim; ++d)
-          mirror(before.v->component[d], ahead.v.component[d]);
-      }
+      before.v = combined(2, now.v, -1, ahead.v);
     else
       {
         before.u = now.u;
-        mirror(*before.u, ahead.u);
+        before.u->zero_out_ghost_values();
+        before.u->sadd(2, -1, ahead.u);
+        before.u->update_ghost_values();
       }
     return before;
   }

@@ -2,6 +2,7 @@
 # Copyright (C) the Treacle authors
 """What the package treacle reads of a run, and what it says where that cannot be read."""
 
+import math
 import subprocess
 import sys
 import tempfile
@@ -14,6 +15,7 @@ from synthetic_run import write_run
 from treacle import DataError, Run, read_parameters, read_statistics, read_surface, read_timing
 from treacle.layers import problems
 from treacle.stream import centre_of_cut, coiling, folding
+from treacle.sweep import Scene, Verdict
 
 
 class InDirectory(unittest.TestCase):
@@ -181,6 +183,26 @@ class StreamTest(InDirectory):
         found = folding(times, numpy.stack([0.25 * numpy.sin(angles), 0 * times], axis=1))
         numpy.testing.assert_allclose(found, [6, 3, 0.25], rtol=0.02)
         self.assertIsNone(folding(times, numpy.stack([times, times], axis=1)))
+
+
+class SweepTest(unittest.TestCase):
+    def test_scenes(self):
+        texts = [Scene(seed).text() for seed in range(50)]
+        self.assertEqual(texts, [Scene(seed).text() for seed in range(50)])
+        self.assertEqual(len(set(texts)), 50)
+        for words in "contrast", "emitter", "moving", "pool", "3D", "2D":
+            self.assertTrue(any(words in Scene(seed).describe() for seed in range(50)), words)
+
+    def test_verdict(self):
+        scene = next(s for s in map(Scene, range(50)) if s.is_closed() and s.speed == 0)
+        table = {"Potential energy (J)": [10, 4, 3], "Kinetic energy (J)": [0, 4, 6], "Volume drift": [0, 0, -0.25],
+                 "Drift before correction": [0, -0.5, 0], "Repetitions": [0, 1, 2], "Fallbacks": [0, 0, 1],
+                 "Maximum speed (m/s)": [0, 2 * math.sqrt(2 * 9.81), 1]}
+        found = Verdict(scene, table)
+        self.assertEqual((found.n_steps, found.repetitions, found.fallbacks), (2, 3, 1))
+        self.assertAlmostEqual(found.energy_gained, 0.1)
+        self.assertEqual((found.drift, found.largest_step_drift), (0.25, 0.5))
+        self.assertAlmostEqual(found.speed, 1)
 
 
 class LayersTest(InDirectory):

@@ -92,6 +92,26 @@ namespace treacle
             const double                       dt,
             const double                       reach) const;
 
+    /// The same of a velocity, at points from which the velocity carries it on.
+    std::vector<double>
+    carried_velocity(const NodeVector<dim>         &v,
+                     const std::vector<Point<dim>> &from,
+                     Guesses                       &guesses,
+                     const double                   elapsed,
+                     const double                   reach) const;
+
+    /// By how much the velocity changed in the step before along the paths that lead to these
+    /// points, at each: [point * dim + component].
+    std::vector<double>
+    change_along_paths(const std::vector<Point<dim>> &x, Guesses &guesses, const double reach) const;
+
+    /// The same at the nodes of some faces. Their mean is smoother than what is read at the faces,
+    /// which feeds short waves of a surface without viscosity.
+    NodeVector<dim>
+    change_at_nodes(const Mesh<dim>               &mesh,
+                    const std::vector<LocalIndex> &faces,
+                    const double                   reach) const;
+
     void
     advance_nodes(State<dim> &state, const double reach) const;
 
