@@ -26,9 +26,9 @@ namespace treacle
   TimeStepping<dim>::advance(Liquid<dim> &liquid, double &volume, const double dt) const
   {
     Timer wall;
+    scene.check_solids(liquid.state->time + dt);
     if (movement.time_step.is_second_order() && !liquid.state->before)
       find_velocity_before(liquid, dt);
-    scene.check_solids(liquid.state->time + dt);
     StepInfo<dim>            info;
     const BackwardDifference difference = move(liquid, dt, volume, info);
     const NodeVector<dim>    expected   = liquid.state->v;
@@ -67,9 +67,11 @@ namespace treacle
     const Liquid<dim>             old = liquid;
     BackwardDifference            difference(dt, *old.state);
     typename Transport<dim>::Info moved = transport(liquid, difference, volume);
-    const double least_dt =
-      half_a_leaf * old.state->mesh->finest_size() / maximum_speed(*old.state, *old.domain);
-    while (std::abs(moved.drift) > largest_drift && difference.dt > least_dt)
+    const auto is_long = [&] {
+      return difference.dt * maximum_speed(*old.state, *old.domain) >
+             half_a_leaf * old.state->mesh->finest_size();
+    };
+    while (std::abs(moved.drift) > largest_drift && is_long())
       {
         Liquid<dim>                   half = old;
         const BackwardDifference      half_difference(0.5 * difference.dt, *old.state);

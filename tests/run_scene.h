@@ -36,6 +36,12 @@ namespace tests
     return rows;
   }
 
+  inline double
+  energy(const Row &row)
+  {
+    return row.at("Potential energy (J)") + row.at("Kinetic energy (J)");
+  }
+
   template <int dim>
   typename Simulator<dim>::Parameters
   parse(const std::string &text,

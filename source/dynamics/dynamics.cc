@@ -191,8 +191,10 @@ namespace treacle
     auto result = copied(*liquid.state);
     result->before.reset();
     result->u = 0;
-    const Stage stage(*this, *liquid.domain, result->time, 1., timing);
-    Projection<dim>(*stage.pressure).carry_away(result->u, inflow);
+    timing.measured("pressure", [&] {
+      const PressureSystem<dim> pressure(prm.projection.solver, *liquid.domain);
+      Projection<dim>(pressure).carry_away(result->u, inflow);
+    });
     // it is no flow of a viscous liquid: it slips, and has edges
     LeastSquares<dim>(*liquid.domain).apply(result->u, result->v);
     return result;

@@ -117,9 +117,7 @@ namespace treacle
                          const double                   dt,
                          Guesses                       &guesses) const
   {
-    std::vector<NodeField<dim>> fields;
-    for (const Vector &component : velocity.component)
-      fields.push_back({&component});
+    const std::vector<NodeField<dim>> fields = fields_of(velocity);
     const auto advanced = [&](const std::vector<double> &k, const double step) {
       std::vector<Point<dim>> y = x;
       for (unsigned int i = 0; i < x.size(); ++i)

@@ -59,9 +59,7 @@ namespace treacle
     const Mesh<dim>     &mesh = domain.mesh;
     const Extension<dim> extension =
       find_sources(state, domain, surface.distance(reach), reach);
-    std::vector<NodeField<dim>> fields;
-    for (const Vector &component : state.v.component)
-      fields.push_back({&component});
+    std::vector<NodeField<dim>> fields = fields_of(state.v);
     fields.push_back({&extension.is_known}); // the part of the point's cell that counts
     const std::vector<double> values = Tracer<dim>(mesh).evaluate(extension.sources, fields);
     for (unsigned int i = 0; i < extension.nodes.size(); ++i)

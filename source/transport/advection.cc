@@ -76,11 +76,9 @@ namespace treacle
   {
     if (&mesh == old.mesh.get())
       return combined(1, v, 0, v);
-    NodeVector<dim>             result(mesh.nodes);
-    std::vector<NodeField<dim>> fields;
-    for (const Vector &component : v.component)
-      fields.push_back({&component});
-    const std::vector<double> values = Tracer<dim>(*old.mesh).evaluate(owned_nodes(mesh), fields);
+    NodeVector<dim>           result(mesh.nodes);
+    const std::vector<double> values =
+      Tracer<dim>(*old.mesh).evaluate(owned_nodes(mesh), fields_of(v));
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       for (unsigned int d = 0; d < dim; ++d)
         result.component[d].local_element(node) = values[dim * node + d];
@@ -120,20 +118,18 @@ namespace treacle
   }
 
   template <int dim>
-  std::vector<double>
-  Advection<dim>::carried(const std::vector<const Vector *> &fields,
-                          const NodeVector<dim>             &velocity,
-                          const std::vector<Point<dim>>     &from,
-                          Guesses                           &guesses,
-                          const double                       dt,
-                          const double                       reach) const
+  typename Advection<dim>::Carried
+  Advection<dim>::carried(std::vector<NodeField<dim>> fields,
+                          const NodeVector<dim>      &velocity,
+                          const double                dt,
+                          const double                reach) const
   {
-    std::vector<NodeField<dim>> node_fields;
-    for (const Vector *field : fields)
-      node_fields.push_back({field});
-    std::vector<Vector> correction;
+    Carried result{std::move(fields), {}};
     if (prm.scheme == Scheme::maccormack)
       {
+        std::vector<const Vector *> values;
+        for (const NodeField<dim> &field : result.fields)
+          values.push_back(field.value);
         std::vector<LocalIndex> known, corrected;
         for (LocalIndex node = 0; node < old.mesh->n_owned_nodes(); ++node)
           {
@@ -143,11 +139,12 @@ namespace treacle
             if (phi < 0) // fields in the air are not smooth
               corrected.push_back(node);
           }
-        correction = back_and_forth_error(*old.mesh, fields, velocity, dt, known, corrected);
-        for (unsigned int k = 0; k < fields.size(); ++k)
-          node_fields[k].correction = &correction[k];
+        result.corrections =
+          back_and_forth_error(*old.mesh, values, velocity, dt, known, corrected);
+        for (unsigned int k = 0; k < result.fields.size(); ++k)
+          result.fields[k].correction = &result.corrections[k];
       }
-    return Tracer<dim>(*old.mesh).evaluate(from, node_fields, guesses);
+    return result;
   }
 
   template <int dim>
@@ -195,13 +192,10 @@ namespace treacle
     state.phi.update_ghost_values();
     if (!old.material)
       return;
+    const Carried             carry = carried(
+      {{&old.material->density}, {&old.material->viscosity}}, surface_velocity, dt, reach);
     const std::vector<double> material =
-      carried({&old.material->density, &old.material->viscosity},
-              surface_velocity,
-              from,
-              guesses,
-              dt,
-              reach);
+      Tracer<dim>(*old.mesh).evaluate(from, carry.fields, guesses);
     state.material.emplace(mesh.nodes);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
@@ -212,41 +206,35 @@ namespace treacle
   }
 
   template <int dim>
-  std::vector<double>
-  Advection<dim>::carried_velocity(const NodeVector<dim>         &v,
-                                   const std::vector<Point<dim>> &from,
-                                   Guesses                       &guesses,
-                                   const double                   elapsed,
-                                   const double                   reach) const
+  typename Advection<dim>::Past
+  Advection<dim>::past(Carried &&now, const double reach) const
   {
-    std::vector<const Vector *> components(dim);
-    for (unsigned int d = 0; d < dim; ++d)
-      components[d] = &v.component[d];
-    return carried(components, velocity, from, guesses, elapsed, reach);
+    const NodeVector<dim> &v = *old.before->v;
+    return {std::move(now),
+            carried(fields_of(v), velocity, dt + old.before->dt, reach),
+            combined(0.5, old.v, 0.5, v)};
   }
 
   template <int dim>
   std::vector<double>
-  Advection<dim>::change_along_paths(const std::vector<Point<dim>> &x,
-                                     Guesses                       &guesses,
-                                     const double                   reach) const
+  Advection<dim>::change_along_paths(const Past                    &past,
+                                     const std::vector<Point<dim>> &x,
+                                     Guesses                       &guesses) const
   {
-    const Tracer<dim>     tracer(*old.mesh);
-    const NodeVector<dim> mean    = combined(0.5, old.v, 0.5, *old.before->v);
-    const auto            from    = tracer.trace(x, velocity, -dt, guesses);
-    std::vector<double>   change  = carried_velocity(old.v, from, guesses, dt, reach);
-    const auto            further = tracer.trace(from, mean, -old.before->dt, guesses);
-    const auto            before =
-      carried_velocity(*old.before->v, further, guesses, dt + old.before->dt, reach);
+    const Tracer<dim>   tracer(*old.mesh);
+    const auto          from    = tracer.trace(x, velocity, -dt, guesses);
+    std::vector<double> change  = tracer.evaluate(from, past.now.fields, guesses);
+    const auto          further = tracer.trace(from, past.between, -old.before->dt, guesses);
+    const auto          before  = tracer.evaluate(further, past.before.fields, guesses);
     std::transform(change.begin(), change.end(), before.begin(), change.begin(), std::minus<>());
     return change;
   }
 
   template <int dim>
   NodeVector<dim>
-  Advection<dim>::change_at_nodes(const Mesh<dim>               &mesh,
-                                  const std::vector<LocalIndex> &faces,
-                                  const double                   reach) const
+  Advection<dim>::change_at_nodes(const Past                    &past,
+                                  const Mesh<dim>               &mesh,
+                                  const std::vector<LocalIndex> &faces) const
   {
     Vector is_needed = mesh.zeros(mesh.nodes);
     for (const LocalIndex f : faces)
@@ -263,7 +251,7 @@ namespace treacle
           if (&mesh == old.mesh.get())
             guesses.push_back(mesh.node_cells[mesh.node_cell_start[node]]);
         }
-    const std::vector<double> values = change_along_paths(x, guesses, reach);
+    const std::vector<double> values = change_along_paths(past, x, guesses);
     NodeVector<dim>           change(mesh.nodes);
     for (unsigned int i = 0; i < nodes.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
@@ -299,17 +287,20 @@ namespace treacle
           state.u.local_element(begin[i]) +=
             weight * mesh.face_normal[begin[i]][d] * values[dim * i + d];
     };
+    Carried now = carried(fields_of(old.v), velocity, dt, reach);
     add(faces.begin(), faces.end(), 1, [&](const auto &x, Guesses &guesses) {
-      const auto from = Tracer<dim>(*old.mesh).trace(x, velocity, -dt, guesses);
-      return carried_velocity(old.v, from, guesses, dt, reach);
+      const Tracer<dim> tracer(*old.mesh);
+      const auto        from = tracer.trace(x, velocity, -dt, guesses);
+      return tracer.evaluate(from, now.fields, guesses);
     });
     if (difference.before != 0)
       {
-        const NodeVector<dim> change = change_at_nodes(mesh, {faces.begin(), inner}, reach);
+        const Past            past   = this->past(std::move(now), reach);
+        const NodeVector<dim> change = change_at_nodes(past, mesh, {faces.begin(), inner});
         for (auto f = faces.begin(); f != inner; ++f)
           state.u.local_element(*f) -= difference.before * face_velocity(mesh, change, *f);
         add(inner, faces.end(), -difference.before, [&](const auto &x, Guesses &guesses) {
-          return change_along_paths(x, guesses, reach);
+          return change_along_paths(past, x, guesses);
         });
       }
     state.u.update_ghost_values();

@@ -81,8 +81,10 @@ namespace treacle
     std::string             error;
     keep_error(error, [&] {
       for (unsigned int i = 0; i < after.size(); ++i)
-        if (depth_in_walls(scene, mesh, surface.positions[i], time_before).value <= 0)
-          depth[i] = depth_in_walls(scene, mesh, after[i], time_after);
+        if (const Depth<dim> now = depth_in_walls(scene, mesh, after[i], time_after);
+            now.value > 0 &&
+            depth_in_walls(scene, mesh, surface.positions[i], time_before).value <= 0)
+          depth[i] = now;
     });
     throw_first(mesh.communicator(), error);
     std::vector<LostVolume<dim>> lost;
@@ -158,7 +160,7 @@ namespace treacle
       std::vector<Point<dim>> x;
       for (const LostVolume<dim> &part : lost)
         x.push_back(part.entry + offset * part.outward);
-      const auto                              owners = mesh.locator().owners(x);
+      const auto         owners = mesh.locator().owners(x);
       PerRank<Sent<dim>> to_rank(Utilities::MPI::n_mpi_processes(comm));
       for (unsigned int i = 0; i < lost.size(); ++i)
         to_rank[owners[i].rank].push_back(packed(owners[i].point, lost[i]));

@@ -11,12 +11,6 @@ namespace tests::scenes_first_step
 {
 namespace
 {
-  double
-  energy(const Row &row)
-  {
-    return row.at("Potential energy (J)") + row.at("Kinetic energy (J)");
-  }
-
   template <int dim>
   std::string
   corner(const std::string &value)
@@ -50,8 +44,8 @@ namespace
     double       worst = 0;
     for (const Row &row : rows)
       worst = std::max(worst, energy(row) / first);
-    out() << dim << "D pool: volume " << rows.at(1).at("Liquid volume (m^" + std::to_string(dim) + ")") /
-                                          rows.at(0).at("Liquid volume (m^" + std::to_string(dim) + ")")
+    const std::string volume = "Liquid volume (m^" + std::to_string(dim) + ")";
+    out() << dim << "D pool: volume " << rows.at(1).at(volume) / rows.at(0).at(volume)
           << " of the first after a step, energy at most " << worst << " of the first" << std::endl;
   }
 

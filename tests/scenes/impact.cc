@@ -32,10 +32,7 @@ namespace
         corner<dim>("0.3", "0.45") + "\nset Upper corner = " + corner<dim>("0.7", "0.75") + "\nend\n" +
         solid,
       solid.empty() ? 0 : 1);
-    double     drift = 0, rise = 0, least = std::numeric_limits<double>::max();
-    const auto energy = [](const Row &row) {
-      return row.at("Potential energy (J)") + row.at("Kinetic energy (J)");
-    };
+    double drift = 0, rise = 0, least = std::numeric_limits<double>::max();
     for (const Row &row : rows)
       {
         drift = std::max(drift, std::abs(row.at("Volume drift")));

@@ -65,7 +65,7 @@ namespace treacle
 
     // -- nodes --
     std::vector<unsigned char> is_active_node; ///< of an active cell
-    std::vector<unsigned char> is_light_node;  ///< active, but of cells with almost no liquid
+    std::vector<unsigned char> is_light_node;  ///< active, with almost no liquid around; owned nodes
     std::vector<double>        node_mass;      ///< lumped liquid mass (kg), owned nodes
     std::vector<double>        solid_distance; ///< positive outside solids
     std::vector<double>        held_distance;  ///< positive outside solids and emitters

@@ -10,8 +10,8 @@
 
 namespace treacle
 {
-  /// Write the leaves of an octree with their weights. Throws a UserError on all ranks. Collective, as is all
-  /// below.
+  /// Write the leaves of an octree with their weights. Throws a UserError on all ranks.
+  /// Collective, as is all below.
   template <int dim>
   void
   write_leaves(const Octree<dim> &octree, const std::string &path);

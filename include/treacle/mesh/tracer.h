@@ -26,6 +26,17 @@ namespace treacle
     const Vector          *correction = nullptr;
   };
 
+  /// Its components.
+  template <int dim>
+  std::vector<NodeField<dim>>
+  fields_of(const NodeVector<dim> &v)
+  {
+    std::vector<NodeField<dim>> fields;
+    for (const Vector &component : v.component)
+      fields.push_back({&component});
+    return fields;
+  }
+
   /// Follows paths and evaluates node fields anywhere in the mesh: what lies on
   /// another rank is asked of that rank. All members are collective, and all
   /// vectors must have up-to-date ghosts.

@@ -82,35 +82,42 @@ namespace treacle
     NodeVector<dim>
     at_nodes_of(const Mesh<dim> &mesh, const NodeVector<dim> &v) const;
 
-    /// Values of old node fields, by the scheme, at points from which @p velocity
-    /// carries them on: [point * fields + field].
-    std::vector<double>
-    carried(const std::vector<const Vector *> &fields,
-            const NodeVector<dim>             &velocity,
-            const std::vector<Point<dim>>     &from,
-            Guesses                           &guesses,
-            const double                       dt,
-            const double                       reach) const;
+    /// Old node fields, with what the scheme adds to them where they are read.
+    struct Carried
+    {
+      std::vector<NodeField<dim>> fields;
+      std::vector<Vector>         corrections;
+    };
 
-    /// The same of a velocity, at points from which the velocity carries it on.
-    std::vector<double>
-    carried_velocity(const NodeVector<dim>         &v,
-                     const std::vector<Point<dim>> &from,
-                     Guesses                       &guesses,
-                     const double                   elapsed,
-                     const double                   reach) const;
+    /// Fields that @p velocity carries on for dt.
+    Carried
+    carried(std::vector<NodeField<dim>> fields,
+            const NodeVector<dim>      &velocity,
+            const double                dt,
+            const double                reach) const;
+
+    /// The velocity of now and of the step before, and that of the way between.
+    struct Past
+    {
+      Carried         now, before;
+      NodeVector<dim> between;
+    };
+
+    /// Of a state that has a velocity before.
+    Past
+    past(Carried &&now, const double reach) const;
 
     /// By how much the velocity changed in the step before along the paths that lead to these
     /// points, at each: [point * dim + component].
     std::vector<double>
-    change_along_paths(const std::vector<Point<dim>> &x, Guesses &guesses, const double reach) const;
+    change_along_paths(const Past &past, const std::vector<Point<dim>> &x, Guesses &guesses) const;
 
     /// The same at the nodes of some faces. Their mean is smoother than what is read at the faces,
     /// which feeds short waves of a surface without viscosity.
     NodeVector<dim>
-    change_at_nodes(const Mesh<dim>               &mesh,
-                    const std::vector<LocalIndex> &faces,
-                    const double                   reach) const;
+    change_at_nodes(const Past                    &past,
+                    const Mesh<dim>               &mesh,
+                    const std::vector<LocalIndex> &faces) const;
 
     void
     advance_nodes(State<dim> &state, const double reach) const;
