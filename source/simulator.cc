@@ -119,9 +119,10 @@ namespace treacle
         // what was before an emitter starts or stops is of no use behind it
         if (scene.has_switch_at(liquid.state->time))
           liquid.state->before.reset();
-        info = stepping.advance(
-          liquid, volume, time_step.next(*liquid.state, *liquid.domain, frame + 1));
-        report();
+        const StepSize size = time_step.next(
+          *liquid.state, *liquid.domain, frame + 1, {prm.steps.moves(), dynamics.is_coupled()});
+        info = stepping.advance(liquid, volume, size);
+        report(size);
         if (liquid.state->time >= time_step.frame_time(frame + 1) * (1 - 1e-12))
           {
             ++frame;
@@ -231,17 +232,18 @@ namespace treacle
 
   template <int dim>
   void
-  Simulator<dim>::report()
+  Simulator<dim>::report(const StepSize &size)
   {
     statistics->add_row(*liquid.state, *liquid.domain, info);
     char text[200];
     std::snprintf(text,
                   sizeof text,
-                  "step %5u  t %.6f s  dt %.2e s  %8llu cells%s  speed %.2e m/s  "
+                  "step %5u  t %.6f s  dt %.2e s (%s)  %8llu cells%s  speed %.2e m/s  "
                   "viscosity %3u  pressure %3u  %.2f s",
                   liquid.state->step,
                   liquid.state->time,
                   info.dt,
+                  size.bounded_by().c_str(),
                   static_cast<unsigned long long>(liquid.state->mesh->cells->size()),
                   info.rebuilt ? " (new)" : "      ",
                   statistics->last("Maximum speed (m/s)"),
@@ -249,10 +251,13 @@ namespace treacle
                   info.dynamics.pressure_iterations,
                   info.wall_time);
     log->line(text);
-    if (info.repetitions > 0)
-      log->line("the step was repeated " + std::to_string(info.repetitions) +
+    if (const unsigned int n = info.repetitions - info.surprises; n > 0)
+      log->line("the step was repeated " + std::to_string(n) +
                 " times with half its size, for the surface won or lost more than 1 % of the volume"
                 "; left of it: " + digits(100 * info.drift) + " %");
+    if (info.surprises > 0)
+      log->line("the step was repeated " + std::to_string(info.surprises) +
+                " times with half its size, for what viscosity had held began to move");
     if (info.dynamics.fallbacks > 0)
       log->line("warning: the coupled solve stagnated; this step was split with first projection. A "
                 "smaller Maximum time step, or Linear solvers/Coupled/Maximum iterations, may help.");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/maximum.h>
 #include <treacle/time_stepping.h>
 
 namespace treacle
@@ -23,20 +24,67 @@ namespace treacle
 
   template <int dim>
   StepInfo<dim>
-  TimeStepping<dim>::advance(Liquid<dim> &liquid, double &volume, const double dt) const
+  TimeStepping<dim>::advance(Liquid<dim> &liquid, double &volume, const StepSize &size) const
   {
     Timer wall;
-    scene.check_solids(liquid.state->time + dt);
+    scene.check_solids(liquid.state->time + size.dt);
     if (movement.time_step.is_second_order() && !liquid.state->before)
-      find_velocity_before(liquid, dt);
-    StepInfo<dim>            info;
+      find_velocity_before(liquid, size.dt);
+    StepInfo<dim> info;
+    if (!switches.surface || size.dt <= size.falling)
+      take(liquid, volume, size.dt, info);
+    else
+      {
+        // what was held may have begun to fall: what it did before tells nothing of how
+        const Liquid<dim> old        = liquid;
+        const double      old_volume = volume;
+        double            dt         = size.dt;
+        while (take(liquid, volume, dt, info) > half_a_leaf * old.state->mesh->finest_size() &&
+               info.dt > size.falling)
+          {
+            liquid = old;
+            volume = old_volume;
+            dt     = 0.5 * info.dt;
+            find_velocity_before(liquid, dt);
+            ++info.repetitions;
+            ++info.surprises;
+          }
+      }
+    info.wall_time = wall.wall_time();
+    return info;
+  }
+
+  namespace
+  {
+    /// Of velocities at active nodes. Collective.
+    template <int dim>
+    double
+    largest_difference(const LiquidDomain<dim> &domain,
+                       const NodeVector<dim>   &v,
+                       const NodeVector<dim>   &w)
+    {
+      double result = 0;
+      for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
+        if (domain.is_active_node[node])
+          result = larger(result, (v.value(node) - w.value(node)).norm());
+      return largest(domain.mesh.communicator(), result);
+    }
+  } // namespace
+
+  template <int dim>
+  double
+  TimeStepping<dim>::take(Liquid<dim>   &liquid,
+                          double        &volume,
+                          const double   dt,
+                          StepInfo<dim> &info) const
+  {
     const BackwardDifference difference = move(liquid, dt, volume, info);
     const NodeVector<dim>    expected   = liquid.state->v;
     info.dynamics                       = dynamics.advance(liquid, difference, timing);
     extend_velocity(liquid);
+    const double surprise = largest_difference(*liquid.domain, liquid.state->v, expected);
     forget_blows(*liquid.state, *liquid.domain, expected);
-    info.wall_time = wall.wall_time();
-    return info;
+    return 0.5 * info.dt * surprise;
   }
 
   template <int dim>
@@ -99,6 +147,7 @@ namespace treacle
   void
   TimeStepping<dim>::find_velocity_before(Liquid<dim> &liquid, const double dt) const
   {
+    liquid.state->before.reset();
     Liquid<dim> ahead = with_state(liquid, copied(*liquid.state));
     const BackwardDifference difference(dt, *ahead.state);
     if (switches.advection)

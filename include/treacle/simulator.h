@@ -77,7 +77,7 @@ namespace treacle
     output_frame();
 
     void
-    report();
+    report(const StepSize &size);
 
     const MPI_Comm    comm;
     const std::shared_ptr<const Mesh<dim>> imported; ///< null if the mesh is a lattice

@@ -29,12 +29,18 @@ namespace treacle
       , timing(timing)
     {}
 
-    /// By dt, or less if the surface would win or lose too much, with the volume that the
-    /// liquid should have (m^dim) before it, and after it.
+    /// By a step, or less if the surface would win or lose too much or be too far from where the new
+    /// velocity takes it, with the volume that the liquid should have (m^dim) before it, and
+    /// after it.
     StepInfo<dim>
-    advance(Liquid<dim> &liquid, double &volume, const double dt) const;
+    advance(Liquid<dim> &liquid, double &volume, const StepSize &size) const;
 
   private:
+    /// Of a size. Returns how far the surface is from where it would be, had it known the
+    /// velocity to come (m).
+    double
+    take(Liquid<dim> &liquid, double &volume, const double dt, StepInfo<dim> &info) const;
+
     /// The first step of second order needs to know how the velocity changes, or the surface
     /// would lag behind by g dt^2 / 2 for good: a step of the velocity alone tells, from
     /// which that of the step before is continued.

@@ -4,6 +4,7 @@
 #include <treacle/base/choice.h>
 #include <treacle/base/exceptions.h>
 #include <treacle/dynamics/dynamics.h>
+#include <treacle/dynamics/surface_weight.h>
 #include <treacle/viscosity/least_squares.h>
 
 namespace treacle
@@ -60,6 +61,7 @@ namespace treacle
     std::unique_ptr<const PressureSystem<dim>> pressure;
     std::unique_ptr<const FaceFit<dim>>        fit;
     Reactions<dim>                             reactions;
+    typename NodeSystem<dim>::Springs          springs; ///< of the coupled solve
     Info                                       info{};
 
     Stage(const Dynamics          &dynamics,
@@ -111,11 +113,13 @@ namespace treacle
     bool
     solve_stokes(State<dim> &state)
     {
-      const auto        section = timing.section("coupled");
+      const auto section   = timing.section("coupled");
+      auto       stiffness = dynamics.viscosity.stiffness(domain, step);
+      stiffness.springs    = springs;
       const Stokes<dim> stokes(dynamics.prm.stokes,
                                dynamics.prm.viscosity.solver,
                                fit->system,
-                               dynamics.viscosity.stiffness(domain, step),
+                               stiffness,
                                *pressure,
                                step);
       const auto        iterations = stokes.advance(state, reactions);
@@ -165,6 +169,8 @@ namespace treacle
   {
     State<dim> &state = *liquid.state;
     Stage       stage(*this, *liquid.domain, state.time, difference.step, timing);
+    if (is_coupled())
+      stage.springs = surface_weight(state, *liquid.domain, liquid.surface->facets, difference);
     stage.advance(state);
     const auto section = timing.section("reconstruction");
     reconstruction.advance(state, *stage.fit);

@@ -37,6 +37,11 @@ namespace treacle
 
   namespace
   {
+    /// Of itself, that the velocity may change in a step that is longer than a fall allows.
+    constexpr double largest_change = 0.25;
+    /// Of the finest leaf: what moves by less need not be followed in time.
+    constexpr double least_distance = 1e-3;
+
     /// The largest gravity in the liquid, or in the box's middle as long as there is none
     /// (m/s^2). Throws a UserError on all ranks if it is not finite in the liquid. Collective.
     template <int dim>
@@ -58,28 +63,136 @@ namespace treacle
         keep_error(ignored, [&] { include(mesh.middle()); });
       return std::max(result, 0.);
     }
+
+    /// The longest step in which what begins with v does not go further than a distance with the
+    /// acceleration g.
+    double
+    longest_step(const double v, const double g, const double distance)
+    {
+      return 2 * distance / (v + std::sqrt(v * v + 4 * g * distance));
+    }
+
+    /// How the velocity has changed in the step before.
+    struct Change
+    {
+      double fastest; ///< largest acceleration (m/s^2)
+      double rate;    ///< |dv/dt| / |v|, both in the mean (1/s)
+    };
+
+    /// Collective.
+    template <int dim>
+    Change
+    change_before(const State<dim> &state, const LiquidDomain<dim> &domain)
+    {
+      double       fastest = 0;
+      Tensor<1, 2> squares; // of the acceleration and of the velocity, times mass
+      for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
+        if (domain.is_active_node[node])
+          {
+            const Tensor<1, dim> v = state.v.value(node);
+            const double change    = (v - state.before->v->value(node)).norm() / state.before->dt;
+            fastest                = std::max(fastest, change);
+            squares[0] += domain.node_mass[node] * change * change;
+            squares[1] += domain.node_mass[node] * v.norm_square();
+          }
+      const MPI_Comm &comm = domain.mesh.communicator();
+      squares = Utilities::MPI::sum(squares, comm);
+      return {largest(comm, fastest), squares[1] > 0 ? std::sqrt(squares[0] / squares[1]) : 0.};
+    }
+
+    /// Does viscosity carry what happens at the surface in a step? Waves as short as a leaf are
+    /// gone then, and the nodes hold the faces (Hybrid). Collective.
+    template <int dim>
+    bool
+    is_viscous_at_surface(const LiquidDomain<dim> &domain, const double dt)
+    {
+      constexpr double viscous = 0.05; // nu dt / h^2
+      const Mesh<dim> &mesh    = domain.mesh;
+      bool             result  = true;
+      for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+        if (domain.liquid_volume[c] > 0 && domain.liquid_volume[c] < mesh.cell_volume[c])
+          result = result && domain.viscosity[c] * dt >=
+                               viscous * domain.density[c] * std::pow(mesh.cell_size[c], 2);
+      return Utilities::MPI::min(result ? 1 : 0, mesh.communicator()) > 0;
+    }
   } // namespace
 
+  std::string
+  StepSize::bounded_by() const
+  {
+    switch (bound)
+      {
+        case Bound::cfl:
+          return "CFL";
+        case Bound::weight:
+          return "weight";
+        case Bound::change:
+          return "change";
+        case Bound::growth:
+          return "growth";
+        case Bound::maximum:
+          return "maximum";
+        default:
+          return "frame";
+      }
+  }
+
   template <int dim>
-  double
+  StepSize
   TimeStep<dim>::next(const State<dim>        &state,
                       const LiquidDomain<dim> &domain,
-                      const unsigned int       frame) const
+                      const unsigned int       frame,
+                      const Motion            &motion) const
   {
-    // the speed at the end of the step counts: v dt + g dt^2 = CFL h
-    const double     v        = maximum_speed(state, domain);
-    const double     g        = maximum_gravity(domain, state.time);
-    const double     distance = prm.cfl * domain.mesh.finest_size();
-    double           dt       = prm.maximum;
-    if (v + std::sqrt(v * v + 4 * g * distance) > 0)
-      dt = std::min(dt, 2 * distance / (v + std::sqrt(v * v + 4 * g * distance)));
+    using Bound = StepSize::Bound;
+    StepSize   size{prm.maximum, Bound::maximum, prm.maximum};
+    const auto limit = [&](const double dt, const Bound bound) {
+      if (dt < size.dt)
+        std::tie(size.dt, size.bound) = std::make_pair(dt, bound);
+    };
+    if (motion.moves)
+      find_longest(state, domain, motion, size);
     if (is_second_order() && state.before) // two steps of sizes further apart have only first
-      dt = std::min(dt, 2 * state.before->dt);
+      limit(2 * state.before->dt, Bound::growth);
 
     // equal steps to the frame, or to where an emitter starts or stops
     const double left =
       std::min(frame_time(frame), domain.scene.next_switch(state.time)) - state.time;
-    return left / std::max(1., std::ceil(left / dt - 1e-6));
+    const double n = std::max(1., std::ceil(left / size.dt - 1e-6));
+    if (n == 1)
+      size.bound = Bound::frame;
+    size.dt = left / n;
+    return size;
+  }
+
+  template <int dim>
+  void
+  TimeStep<dim>::find_longest(const State<dim>        &state,
+                              const LiquidDomain<dim> &domain,
+                              const Motion            &motion,
+                              StepSize                &size) const
+  {
+    // the speed at the end of the step counts: v dt + g dt^2 = CFL h
+    const double v = maximum_speed(state, domain), g = maximum_gravity(domain, state.time);
+    const double h = domain.mesh.finest_size();
+    size.falling   = longest_step(v, g, prm.cfl * h);
+    if (size.falling >= size.dt)
+      return;
+    size.dt    = size.falling;
+    size.bound = g * size.dt > v ? StepSize::Bound::weight : StepSize::Bound::cfl;
+    if (!motion.is_coupled || !state.before || !state.before->v ||
+        !is_viscous_at_surface(domain, size.dt))
+      return;
+    const Change change    = change_before(state, domain);
+    const double a         = std::min(g, 2 * change.fastest);
+    const double by_change = std::max(largest_change / change.rate, least_distance * h / v);
+    const std::array<std::pair<double, StepSize::Bound>, 3> bounds{
+      {{by_change, StepSize::Bound::change},
+       {longest_step(v, a, prm.cfl * h), StepSize::Bound::cfl},
+       {prm.maximum, StepSize::Bound::maximum}}};
+    const auto &[dt, bound] = *std::min_element(bounds.begin(), bounds.end());
+    if (dt > size.dt)
+      std::tie(size.dt, size.bound) = std::tie(dt, bound);
   }
 
   template <int dim>

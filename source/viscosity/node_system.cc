@@ -23,7 +23,7 @@ namespace treacle
 
     std::vector<LocalIndex>     columns; ///< nodes, that of the row first
     std::vector<Tensor<2, dim>> blocks;
-    Tensor<1, dim>              wall_force;
+    Tensor<1, dim>              force; ///< of walls in cut cells and of springs
     /// Columns of the numbering, ascending, and places in the list of columns.
     std::vector<std::pair<LocalIndex, unsigned int>> order;
     MatrixRow                                        entries; ///< scratch, of one component
@@ -35,7 +35,7 @@ namespace treacle
         slot[other] = invalid;
       columns.clear();
       blocks.clear();
-      wall_force = 0;
+      force = 0;
       block(node);
     }
 
@@ -95,7 +95,7 @@ namespace treacle
               const Tensor<2, dim> block =
                 part.fraction * stiff(part.gradient[k], part.gradient[l]);
               if (part.vertex[l] == CutCells<dim>::on_wall)
-                row.wall_force -= block * part.velocity[l];
+                row.force -= block * part.velocity[l];
               else
                 row.block(nodes[part.vertex[l]]) += block;
             }
@@ -135,6 +135,11 @@ namespace treacle
     for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
       if (domain.is_active_cell[mesh.node_cells[k]])
         add_stiffness(stiffness, node, mesh.node_cells[k], row);
+    if (!stiffness.springs.strength.empty())
+      {
+        row.blocks[0] += Tensor<2, dim>(stiffness.springs.strength[node]);
+        row.force += stiffness.springs.pull[node];
+      }
     if (mass == Mass::nodes)
       for (unsigned int d = 0; d < dim; ++d)
         row.blocks[0][d][d] += domain.node_mass[node];
@@ -164,7 +169,7 @@ namespace treacle
         if (is_constrained(node, a))
           row.entries.emplace_back(dim * i + a, diagonal);
         else
-          shift.local_element(dim * i + a) += row.wall_force[a];
+          shift.local_element(dim * i + a) += row.force[a];
         for (unsigned int k = 0; k < row.order.size() && !is_constrained(node, a); ++k)
           for (unsigned int b = decoupled ? a : 0; b < (decoupled ? a + 1 : dim); ++b)
             {

@@ -176,7 +176,7 @@ namespace treacle
       {
         reactions->add_stress(stiffness, state.v);
         if (flip)
-          reactions->add_stress({fit.regularization(), {}}, old_v, -1);
+          reactions->add_stress({fit.regularization(), {}, {}}, old_v, -1);
         reactions->add_inertia(fit.system, old_u, state.u);
       }
     return iterations;

@@ -162,7 +162,7 @@ check_steps(const MPI_Comm &comm)
                                     std::string("if(x > 0.6, 1/0, 0); 0")})
     show("gravity " + gravity, [&] {
       const Body<2> body(comm, "subsection Gravity\nset Acceleration = " + gravity + "\nend\n");
-      out() << TimeStep<2>(prm).next(body.state, body.domain, 1);
+      out() << TimeStep<2>(prm).next(body.state, body.domain, 1, {true, false}).dt;
     });
 
   Body<2>      body(comm, "subsection Liquid 1\nset Centre = 0.5, 0.4\nend\n");

@@ -46,6 +46,13 @@ namespace treacle
     /// Throws a UserError where the choices do not go together.
     Dynamics(const Parameters &parameters, const StepSwitches &switches);
 
+    /// Are viscosity and pressure solved for together?
+    bool
+    is_coupled() const
+    {
+      return prm.coupling == Coupling::stokes && switches.viscosity && switches.pressure;
+    }
+
     struct Info
     {
       unsigned int viscosity_iterations = 0;

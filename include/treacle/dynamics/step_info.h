@@ -16,9 +16,10 @@ namespace treacle
     bool   rebuilt   = false; ///< the mesh is new
     double emitted   = 0;     ///< volume from emitters (m^dim)
     double drift     = 0;     ///< of the volume, relative, before it was corrected
-
-    unsigned int repetitions = 0; ///< with half the size, for the drift was too large
     double wall_time = 0;     ///< s
+
+    unsigned int repetitions = 0; ///< with half the size
+    unsigned int surprises   = 0; ///< those for a velocity that came unexpected, not for the drift
 
     typename Dynamics<dim>::Info dynamics;
   };

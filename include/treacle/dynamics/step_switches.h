@@ -18,6 +18,13 @@ namespace treacle
     bool viscosity = true;
     bool pressure  = true;
 
+    /// Does anything move?
+    bool
+    moves() const
+    {
+      return surface || advection;
+    }
+
     /// Subsection Steps.
     void
     add_parameters(ParameterHandler &prm);

@@ -10,7 +10,32 @@
 
 namespace treacle
 {
-  /// Chooses dt: bounded by the CFL number, the maximum, and the next frame.
+  /// A step, and what keeps it from being longer.
+  struct StepSize
+  {
+    enum class Bound
+    {
+      cfl,       ///< what the fastest liquid crosses
+      weight,    ///< what a fall from its speed would cross
+      change,    ///< how fast the velocity changes
+      growth,    ///< twice the step before
+      maximum,   ///< Maximum time step
+      frame      ///< or where an emitter starts or stops
+    };
+
+    double dt; ///< s
+    Bound  bound;
+    double falling; ///< the longest step that is right even if nothing holds the liquid (s)
+
+    /// For the log.
+    std::string
+    bounded_by() const;
+  };
+
+
+
+  /// Chooses dt: bounded by the CFL number, the maximum, and the next frame. Where viscosity holds
+  /// the liquid, how its velocity changes counts, not gravity.
   template <int dim>
   class TimeStep
   {
@@ -38,10 +63,20 @@ namespace treacle
       : prm(parameters)
     {}
 
-    /// Size of the step from state.time (s); steps end exactly on frames. Throws a UserError
+    /// What a liquid does that is to be followed in time.
+    struct Motion
+    {
+      bool moves;      ///< surface or velocity
+      bool is_coupled; ///< viscosity and pressure are solved for together, with the weight to come
+    };
+
+    /// The step from state.time; steps end exactly on frames. Throws a UserError
     /// on all ranks where velocity or gravity is not finite. Collective.
-    double
-    next(const State<dim> &state, const LiquidDomain<dim> &domain, const unsigned int frame) const;
+    StepSize
+    next(const State<dim>        &state,
+         const LiquidDomain<dim> &domain,
+         const unsigned int       frame,
+         const Motion            &motion) const;
 
     /// How far from the surface the velocity must be known for the step from state.time (m).
     /// Throws like next(). Collective.
@@ -84,6 +119,13 @@ namespace treacle
     }
 
   private:
+    /// What the liquid's motion allows.
+    void
+    find_longest(const State<dim>        &state,
+                 const LiquidDomain<dim> &domain,
+                 const Motion            &motion,
+                 StepSize                &size) const;
+
     /// Of a step in which the liquid moves by @p distance (m).
     double
     furthest_trace(const double distance) const

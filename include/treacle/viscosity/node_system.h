@@ -32,6 +32,13 @@ namespace treacle
       faces
     };
 
+    /// At each owned node, or none: the force `pull - strength v`, times a time.
+    struct Springs
+    {
+      std::vector<SymmetricTensor<2, dim>> strength; ///< kg
+      std::vector<Tensor<1, dim>>          pull;     ///< kg m/s
+    };
+
     /// Weights of the two terms in each cell; an empty one is zero. In a cell that a
     /// solid cuts they are for its open part, whose strain takes the wall into account. For -step D they
     /// are step mu V: of the strain for the full stress, of the gradient for
@@ -40,12 +47,13 @@ namespace treacle
     {
       std::vector<double> strain;   ///< of 2 e:e'
       std::vector<double> gradient; ///< of grad v : grad v'
+      Springs             springs{};
     };
 
     struct Assembled
     {
       std::unique_ptr<TrilinosWrappers::SparseMatrix> matrix;
-      /// What the prescribed values contribute to the right-hand side.
+      /// What prescribed values and springs contribute to the right-hand side.
       Vector shift;
     };
 
