@@ -4,6 +4,7 @@
 #include <treacle/base/choice.h>
 #include <treacle/base/exchange.h>
 #include <treacle/fields/liquid_domain.h>
+#include <treacle/fields/viscosity_jumps.h>
 
 #include <numeric>
 
@@ -139,6 +140,7 @@ namespace treacle
           keep_error(error, [&] { find_material(c, state); });
       }
     throw_first(mesh.communicator(), error);
+    soften_jumps(scene, state, solid_distance, liquid_volume, viscosity);
   }
 
   template <int dim>

@@ -14,6 +14,9 @@ namespace treacle
 {
   namespace
   {
+    /// How far below the surface the change along paths is found at nodes, in leaves.
+    constexpr double deep_leaves = 4;
+
     template <int dim>
     std::vector<Point<dim>>
     owned_nodes(const Mesh<dim> &mesh)
@@ -266,10 +269,11 @@ namespace treacle
   {
     const Mesh<dim>        &mesh  = *state.mesh;
     std::vector<LocalIndex> faces = faces_that_matter(state);
-    const auto              inner = // first those whose nodes are all in the liquid
+    const double            deep = deep_leaves * mesh.surface_size();
+    const auto              shallow = // first those whose nodes are all in the liquid, but not deep
       std::stable_partition(faces.begin(), faces.end(), [&](const LocalIndex f) {
         return std::all_of(mesh.face_nodes[f].begin(), mesh.face_nodes[f].end(), [&](const auto node) {
-          return state.phi.local_element(node) <= 0;
+          return state.phi.local_element(node) <= 0 && state.phi.local_element(node) > -deep;
         });
       });
     const auto add = [&](const auto begin, const auto end, const double weight, const auto &at) {
@@ -296,10 +300,10 @@ namespace treacle
     if (difference.before != 0)
       {
         const Past            past   = this->past(std::move(now), reach);
-        const NodeVector<dim> change = change_at_nodes(past, mesh, {faces.begin(), inner});
-        for (auto f = faces.begin(); f != inner; ++f)
+        const NodeVector<dim> change = change_at_nodes(past, mesh, {faces.begin(), shallow});
+        for (auto f = faces.begin(); f != shallow; ++f)
           state.u.local_element(*f) -= difference.before * face_velocity(mesh, change, *f);
-        add(inner, faces.end(), -difference.before, [&](const auto &x, Guesses &guesses) {
+        add(shallow, faces.end(), -difference.before, [&](const auto &x, Guesses &guesses) {
           return change_along_paths(past, x, guesses);
         });
       }

@@ -145,15 +145,15 @@ namespace treacle
                       const Motion            &motion) const
   {
     using Bound = StepSize::Bound;
-    StepSize   size{prm.maximum, Bound::maximum, prm.maximum};
-    const auto limit = [&](const double dt, const Bound bound) {
-      if (dt < size.dt)
-        std::tie(size.dt, size.bound) = std::make_pair(dt, bound);
-    };
+    StepSize size{prm.maximum, Bound::maximum, prm.maximum};
     if (motion.moves)
       find_longest(state, domain, motion, size);
-    if (is_second_order() && state.before) // two steps of sizes further apart have only first
-      limit(2 * state.before->dt, Bound::growth);
+    // two steps of sizes further apart have only first order
+    if (is_second_order() && state.before && 2 * state.before->dt < size.dt)
+      {
+        size.dt    = 2 * state.before->dt;
+        size.bound = Bound::growth;
+      }
 
     // equal steps to the frame, or to where an emitter starts or stops
     const double left =

@@ -52,6 +52,12 @@ namespace treacle
     double
     viscosity(const Point<dim> &x, const double t) const;
 
+    bool
+    viscosity_is_constant() const
+    {
+      return viscosity_at.is_constant();
+    }
+
   private:
     std::string     density_name, viscosity_name;
     Expression<dim> density_at, viscosity_at;

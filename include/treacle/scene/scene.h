@@ -100,6 +100,13 @@ namespace treacle
     density(const Point<dim> &x, const double t) const; // kg/m^dim
     double
     viscosity(const Point<dim> &x, const double t) const; // Pa s
+
+    /// The same everywhere, at all times?
+    bool
+    has_constant_viscosity() const
+    {
+      return material.viscosity_is_constant();
+    }
     Tensor<1, dim>
     gravity(const Point<dim> &x, const double t) const; // m/s^2
 

@@ -113,7 +113,7 @@ namespace treacle
     change_along_paths(const Past &past, const std::vector<Point<dim>> &x, Guesses &guesses) const;
 
     /// The same at the nodes of some faces. Their mean is smoother than what is read at the faces,
-    /// which feeds short waves of a surface without viscosity.
+    /// which feeds short waves of a surface without viscosity; deep in the liquid it feeds vortices.
     NodeVector<dim>
     change_at_nodes(const Past                    &past,
                     const Mesh<dim>               &mesh,

@@ -22,6 +22,7 @@ GRADED = {"Mesh/Interior level": 3, "Mesh/Air level": 2}
 COARSE_AIR = {"Mesh/Air level": 0}
 ROPE = {"Mesh/Interior level": 3, "Mesh/Air level": 1}
 THIN = {"Material/Viscosity": "0.005", "End time": "8"}
+LAYERS = {"Material/Viscosity": "if(y < 0.53, 1e6, 1e4)", "End time": "4e4", "Frame interval": "2e3"}
 
 
 def wave_case(start, end, rate, frequency):
@@ -118,6 +119,7 @@ FREE_SURFACE_CASES = {
     "C3 k 2 pi, h 0.5, nu 0.1": case("relaxation", 2, 0.05,
                                      {"rate": (surface_rate(2 * pi, 0.5), 0.828245658)}, SHORT,
                                      in_time=({},)),
+    "C3 layers": case("relaxation", 3, 2000, {"rate": (surface_rate(pi, 4000), 0.0711855776e-4)}, LAYERS),
     "C4 nu 0.05": case("wave", 2, 0.1, WAVE, in_time=({}, EULER)),
     "C4 nu 0.005": case("wave", 2, 0.1, THIN_WAVE, THIN, in_time=({},)),
     "C5": case("stretched_drop", 2, 0.04, DROP, in_time=({},)),

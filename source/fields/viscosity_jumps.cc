@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exchange.h>
+#include <treacle/fields/viscosity_jumps.h>
+
+namespace treacle
+{
+  namespace
+  {
+    /// Largest over smallest viscosity at the nodes of a cell: less is smooth.
+    constexpr double jump = 1.5;
+    /// Of the mean: layers that slide on one another ask for -1, but a velocity that is linear across
+    /// the jump makes them too stiff. Measured: doc/method.md.
+    constexpr double exponent = -2;
+
+    /// Barycentric coordinates of points spread evenly in a cell.
+    template <int dim>
+    std::vector<VertexValues<dim>>
+    even_points()
+    {
+      constexpr unsigned int         n       = dim == 2 ? 12 : 6;
+      const unsigned int             n_boxes = dim == 2 ? n * n : n * n * n;
+      std::vector<VertexValues<dim>> result;
+      for (unsigned int k = 0; k < n_boxes; ++k)
+        {
+          const std::array<unsigned int, 3> digit{{k % n, k / n % n, k / (n * n)}};
+          VertexValues<dim>                 lambda;
+          lambda[dim] = 1;
+          for (unsigned int i = 0; i < dim; ++i)
+            {
+              lambda[i] = (digit[i] + 1. / (dim + 1)) / n;
+              lambda[dim] -= lambda[i];
+            }
+          if (lambda[dim] > 0)
+            result.push_back(lambda);
+        }
+      return result;
+    }
+
+    template <int dim>
+    class Jumps
+    {
+    public:
+      Jumps(const Scene<dim> &scene, const State<dim> &state, const std::vector<double> &solid_distance)
+        : scene(scene)
+        , state(state)
+        , solid_distance(solid_distance)
+        , at_node(solid_distance.size(), unknown)
+      {}
+
+      bool
+      is_cut(const LocalIndex c)
+      {
+        double least = std::numeric_limits<double>::max(), most = 0;
+        for (const LocalIndex node : state.mesh->cell_nodes[c])
+          {
+            double &value = at_node[node];
+            if (value == unknown)
+              value = scene.viscosity(state.mesh->node_position[node], state.time);
+            least = std::min(least, value);
+            most  = std::max(most, value);
+          }
+        return most > jump * least;
+      }
+
+      /// Of a cell's liquid; @p otherwise if none is found.
+      double
+      mean(const LocalIndex c, const double otherwise) const
+      {
+        const Simplex<dim>      x     = state.mesh->cell_vertices(c);
+        const VertexValues<dim> phi   = state.mesh->values(c, state.phi);
+        const VertexValues<dim> solid = state.mesh->values(c, solid_distance);
+        double                  sum   = 0;
+        unsigned int            n     = 0;
+        for (const VertexValues<dim> &lambda : even)
+          {
+            Point<dim> point;
+            double     phi_at = 0, solid_at = 0;
+            for (unsigned int i = 0; i <= dim; ++i)
+              {
+                point += lambda[i] * x[i];
+                phi_at += lambda[i] * phi[i];
+                solid_at += lambda[i] * solid[i];
+              }
+            if (phi_at >= 0 || solid_at <= 0)
+              continue;
+            sum += std::pow(scene.viscosity(point, state.time), exponent);
+            ++n;
+          }
+        return n > 0 ? std::pow(sum / n, 1 / exponent) : otherwise;
+      }
+
+    private:
+      static constexpr double unknown = -1;
+
+      const Scene<dim>                    &scene;
+      const State<dim>                    &state;
+      const std::vector<double>           &solid_distance;
+      std::vector<double>                  at_node;
+      const std::vector<VertexValues<dim>> even = even_points<dim>();
+    };
+  } // namespace
+
+  template <int dim>
+  void
+  soften_jumps(const Scene<dim>          &scene,
+               const State<dim>          &state,
+               const std::vector<double> &solid_distance,
+               const std::vector<double> &liquid_volume,
+               std::vector<double>       &viscosity)
+  {
+    if (state.material || scene.has_constant_viscosity())
+      return;
+    Jumps<dim>  jumps(scene, state, solid_distance);
+    std::string error;
+    for (LocalIndex c = 0; c < viscosity.size(); ++c)
+      if (liquid_volume[c] > 0)
+        keep_error(error, [&] {
+          if (jumps.is_cut(c))
+            viscosity[c] = jumps.mean(c, viscosity[c]);
+        });
+    throw_first(state.mesh->communicator(), error);
+  }
+
+  template void
+  soften_jumps(const Scene<2> &,
+               const State<2> &,
+               const std::vector<double> &,
+               const std::vector<double> &,
+               std::vector<double> &);
+  template void
+  soften_jumps(const Scene<3> &,
+               const State<3> &,
+               const std::vector<double> &,
+               const std::vector<double> &,
+               std::vector<double> &);
+} // namespace treacle
