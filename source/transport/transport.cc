@@ -52,8 +52,10 @@ namespace treacle
       scene, *old.mesh, liquid.surface->facets, ends, old.time, next->time);
     tracking.follow_markers(*next, time_step.reach_of_distance(reach, *mesh));
     const double wanted  = volume + emitted;
-    const double won     = liquid_volume(*data, next->phi, next->time) - wanted;
-    double       missing = std::min(sum(lost, mesh->communicator()), -won);
+    // what earlier steps left to be corrected is not of this one
+    const double won = liquid_volume(*data, next->phi, next->time) - emitted -
+                       liquid.domain->total_volume();
+    double missing = std::min(sum(lost, mesh->communicator()), -won);
     if (!tracking.keeps_volume() || missing < least_lost * wanted)
       missing = 0;
     auto surface = tracking.settle(*next, *data, wanted - missing);
