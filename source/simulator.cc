@@ -258,6 +258,15 @@ namespace treacle
     if (info.surprises > 0)
       log->line("the step was repeated " + std::to_string(info.surprises) +
                 " times with half its size, for what viscosity had held began to move");
+    const double drift = statistics->last("Volume drift");
+    if (std::abs(drift) > warned_drift + 0.05)
+      {
+        warned_drift = std::abs(drift);
+        log->line("warning: the liquid has " + digits(100 * std::abs(drift)) + " % " +
+                  (drift < 0 ? "less" : "more") +
+                  " volume than it should. Parts thinner than a leaf are lost, which a larger Surface "
+                  "level holds; an emitter may pour into a box that is full.");
+      }
     if (info.dynamics.fallbacks > 0)
       log->line("warning: the coupled solve stagnated; this step was split with first projection. A "
                 "smaller Maximum time step, or Linear solvers/Coupled/Maximum iterations, may help.");

@@ -101,6 +101,7 @@ namespace treacle
     Liquid<dim>   liquid;
     unsigned int  frame  = 0; ///< the last one written
     double        volume = 0; ///< that the liquid should have (m^dim)
+    double        warned_drift = 0; ///< of the volume, that the log has told
     StepInfo<dim> info;
   };
 } // namespace treacle
