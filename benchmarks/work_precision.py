@@ -7,11 +7,11 @@ markdown and a picture.
     benchmarks/work_precision.py [--leaves 16 32 64] [--steps 0.01 0.005] [--couplings coupled ...]
                                  [--others FILE] [--picture FILE]
 
-Errors: how far the centre of mass has fallen at t = 0.05 and 0.1 s, where it falls freely (exact), and its height, the top and
-the half width along x at 0.3 s against the first coupling's finest mesh and shortest step. Seconds are CPU
-seconds of the steps until 0.3 s, without set-up. --others: figures of another program to set beside these, lines
-of `name;leaves;step;seconds;fall at 0.05 s;fall at 0.1 s;centre;top;half width` (m), whose errors in the last three are against its own last
-line.
+Errors: how far the centre of mass has fallen at t = 0.05 and 0.1 s, where it falls freely (exact), and
+its height, the top and the half width along x at 0.3 s against the first coupling's finest mesh and
+shortest step. Seconds are those of the steps until 0.3 s on one core, without set-up. --others: figures of
+another program to set beside these, lines of `name;leaves;step;seconds;fall at 0.05 s;fall at 0.1 s;centre;
+top;half width` (m), whose errors in the last three are against its own last line.
 """
 
 import argparse
@@ -89,7 +89,8 @@ def draw(groups, path):
             axes.loglog(*zip(*sorted(shown)), "o", label=name)
             for p in points:
                 if errors(p, finest)[k] != 0:
-                    axes.annotate(f" {p.leaves}, {1e3 * p.step:g} ms", (p.seconds, abs(errors(p, finest)[k])), fontsize=7)
+                    axes.annotate(f" {p.leaves}, {1e3 * p.step:g} ms",
+                                  (p.seconds, abs(errors(p, finest)[k])), fontsize=7)
         axes.set(xlabel="CPU s to 0.3 s", title=QUANTITIES[k])
         axes.grid(alpha=0.3)
     figure.axes[0].set_ylabel("error (%)")
@@ -117,7 +118,8 @@ def main():
     print("| " + " | ".join(head) + " |\n" + "|---" * len(head) + "|")
     for members, reference in groups.values():
         for p in members:
-            cells = [p.name, p.leaves, f"{p.step:g}", f"{p.seconds:.3g}", *(f"{e:+.3g}" for e in errors(p, reference))]
+            cells = [p.name, p.leaves, f"{p.step:g}", f"{p.seconds:.3g}",
+                     *(f"{e:+.3g}" for e in errors(p, reference))]
             print("| " + " | ".join(map(str, cells)) + " |")
     if arguments.picture:
         draw(groups, arguments.picture)
