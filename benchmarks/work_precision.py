@@ -25,6 +25,7 @@ from matplotlib.figure import Figure
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "python"))
+from steps import mesh_settings  # noqa: E402
 from treacle import read_statistics  # noqa: E402
 
 GRAVITY = 9.81
@@ -41,19 +42,12 @@ class Point(NamedTuple):
     values: tuple
 
 
-def mesh_settings(leaves):
-    level = (leaves & -leaves).bit_length() - 1
-    return {"Mesh/Root cells": leaves >> level, "Mesh/Surface level": level,
-            "Mesh/Interior level": max(level - 2, 0), "Mesh/Air level": max(level - 3, 0)}
-
-
 def measure(program, leaves, step, coupling):
     with tempfile.TemporaryDirectory() as directory:
-        settings = {**mesh_settings(leaves), "Maximum time step": step, "Frame interval": 0.05,
-                    "Viscosity/Pressure coupling": coupling, "Output directory": directory}
         line = [program, ROOT / "prm/benchmarks/bowl.prm"]
-        for name, value in settings.items():
-            line += ["--set", f"{name}={value}"]
+        for setting in (*mesh_settings(leaves, uniform=False), f"Maximum time step={step}", "Frame interval=0.05",
+                        f"Viscosity/Pressure coupling={coupling}", f"Output directory={directory}"):
+            line += ["--set", setting]
         done = subprocess.run(line, capture_output=True, text=True)
         if done.returncode != 0:
             sys.exit(f"work_precision: {done.stderr.strip()}")

@@ -16,7 +16,7 @@ namespace treacle
     /// Bounds the drag from below, for liquids that have no viscosity.
     constexpr double least_share = 1e-8;
     /// Weight of a face that takes no part, of its mass: with 1e-8 a tip beyond the cells that have a
-    /// pressure spins about the node it hangs on, as fast as the solver's tolerance lets it.
+    /// pressure spins about the node it hangs on.
     constexpr double idle = 1e-3;
   } // namespace
 
