@@ -62,45 +62,59 @@ namespace treacle
       return result;
     }
 
+    /// The cube of a power of two of an edge that contains a smaller one.
+    template <int dim>
+    LatticePoint<dim>
+    cube_around(LatticePoint<dim> cube, const int size)
+    {
+      for (int &i : cube)
+        i &= ~(size - 1);
+      return cube;
+    }
+
     template <int dim>
     Point<dim>
-    centre_of_cube(const Octree<dim> &octree, const VertexKey cube)
+    centre_of_cube(const Octree<dim> &octree, const VertexKey cube, const int size)
     {
-      LatticePoint<dim> centre = unpack<dim>(cube);
-      for (int &i : centre)
-        ++i;
-      return octree.position(centre);
+      return octree.position(Leaf<dim>{unpack<dim>(cube), size, 0}.centre());
     }
   } // namespace
 
   template <int dim>
+  std::optional<VertexKey>
+  Band<dim>::cube_at(const VertexKey cube, const LatticePoint<dim> &step, const LatticePoint<dim> &extent) const
+  {
+    LatticePoint<dim> other = unpack<dim>(cube);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        other[d] += size * step[d];
+        if (other[d] < 0 || other[d] >= extent[d])
+          return {};
+      }
+    return pack<dim>(other);
+  }
+
+  template <int dim>
   Band<dim>::Band(const Octree<dim>                             &octree,
+                  const unsigned int                             level,
                   const std::vector<BandPoint<dim>>             &points,
                   const BandWidths                              &widths,
                   const std::function<bool(const Point<dim> &)> &is_needed)
     : comm(octree.communicator())
-    , finest_level(octree.parameters().surface_level)
+    , root(2 << octree.parameters().surface_level)
+    , size(root >> level)
   {
     std::map<LatticePoint<dim>, std::vector<VertexKey>> by_direction;
     for (const BandPoint<dim> &point : points)
       by_direction[direction(point.outward)].push_back(
-        pack<dim>(octree.finest_cube(point.position)));
+        pack<dim>(cube_around<dim>(octree.finest_cube(point.position), size)));
     for (auto &[outward, asking] : by_direction)
       {
         sort_unique(asking);
         for (const LatticePoint<dim> &step : steps<dim>(widths, outward))
           for (const VertexKey cube : asking)
-            {
-              LatticePoint<dim> other     = unpack<dim>(cube);
-              bool              is_inside = true;
-              for (unsigned int d = 0; d < dim; ++d)
-                {
-                  other[d] += 2 * step[d];
-                  is_inside = is_inside && other[d] >= 0 && other[d] < octree.extent()[d];
-                }
-              if (is_inside)
-                cubes.push_back(pack<dim>(other));
-            }
+            if (const auto other = cube_at(cube, step, octree.extent()))
+              cubes.push_back(*other);
       }
     sort_unique(cubes);
     std::string error;
@@ -108,7 +122,7 @@ namespace treacle
       cubes.erase(std::remove_if(cubes.begin(),
                                  cubes.end(),
                                  [&](const VertexKey cube) {
-                                   return !is_needed(centre_of_cube(octree, cube));
+                                   return !is_needed(centre_of_cube(octree, cube, size));
                                  }),
                   cubes.end());
     });
@@ -117,31 +131,32 @@ namespace treacle
 
   template <int dim>
   bool
-  Band<dim>::is_finest_in(const Octree<dim> &octree) const
+  Band<dim>::is_in_leaves_of(const Octree<dim> &octree) const
   {
+    const auto is_fine = [&](const LocalIndex leaf) {
+      return leaf != invalid && octree.leaves()[leaf].size <= size;
+    };
     // a cube that is not one of this rank's leaves is asked of its owner
     std::vector<Point<dim>> elsewhere;
-    bool                    finest = true;
+    bool                    all = true;
     for (const VertexKey cube : cubes)
       {
-        const Point<dim> x    = centre_of_cube(octree, cube);
+        const Point<dim> x    = centre_of_cube(octree, cube, size);
         const LocalIndex leaf = octree.leaf_containing(x);
         if (leaf == invalid)
           elsewhere.push_back(x);
         else
-          finest = finest && octree.leaves()[leaf].size == 2;
+          all = all && is_fine(leaf);
       }
-    for (const double is_finest : ask(comm,
-                                      octree.owner_ranks(elsewhere),
-                                      elsewhere,
-                                      1,
-                                      [&](const Point<dim> &x, double *answer) {
-                                        const LocalIndex leaf = octree.leaf_containing(x);
-                                        *answer               = leaf != invalid &&
-                                                  octree.leaves()[leaf].size == 2;
-                                      }))
-      finest = finest && is_finest == 1;
-    return Utilities::MPI::min(finest ? 1 : 0, comm) == 1;
+    for (const double answer : ask(comm,
+                                   octree.owner_ranks(elsewhere),
+                                   elsewhere,
+                                   1,
+                                   [&](const Point<dim> &x, double *answer) {
+                                     *answer = is_fine(octree.leaf_containing(x));
+                                   }))
+      all = all && answer == 1;
+    return Utilities::MPI::min(all ? 1 : 0, comm) == 1;
   }
 
   namespace
@@ -182,20 +197,15 @@ namespace treacle
   std::vector<bool>
   Band<dim>::touches(const std::vector<Leaf<dim>> &leaves) const
   {
-    const int root = 2 << finest_level;
     // ranks without leaves of this level do not know it
     const unsigned int level =
       Utilities::MPI::max(leaves.empty() ? 0u : leaves.front().level, comm);
-    const int size = root >> level;
+    if (root >> level <= size)
+      return std::vector<bool>(leaves.size(), false);
 
     std::vector<VertexKey> of_cubes, of_leaves;
-    for (const VertexKey key : cubes)
-      {
-        LatticePoint<dim> cube = unpack<dim>(key);
-        for (int &i : cube)
-          i &= ~(size - 1);
-        of_cubes.push_back(pack<dim>(cube));
-      }
+    for (const VertexKey cube : cubes)
+      of_cubes.push_back(pack<dim>(cube_around<dim>(unpack<dim>(cube), root >> level)));
     sort_unique(of_cubes);
     for (const Leaf<dim> &leaf : leaves)
       of_leaves.push_back(pack<dim>(leaf.origin));

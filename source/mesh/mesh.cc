@@ -72,7 +72,7 @@ namespace treacle
     , tree(std::move(octree))
     , around({tree->parameters().lower_corner, tree->parameters().upper_corner})
     , finest(tree->finest_size())
-    , largest_at_surface(finest)
+    , largest_at_surface(tree->parameters().size_of(tree->parameters().coarsest_at_surface()))
   {
     auto lattice = std::make_unique<LatticeMesh<dim>>(tree);
     Maker maker{*this};

@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/exceptions.h>
+#include <treacle/geometry/expression.h>
 #include <treacle/mesh/octree_parameters.h>
 
 #include <cmath>
@@ -72,7 +73,35 @@ namespace treacle
                       "Number of finest leaves outside of the surface; where it moves, a new "
                       "mesh is fine ahead of it too.",
                       Patterns::Integer(1, 20));
+    add_sizes(prm);
     prm.leave_subsection();
+  }
+
+  template <int dim>
+  void
+  OctreeParameters<dim>::add_sizes(ParameterHandler &prm)
+  {
+    prm.add_parameter("Coarsest surface level",
+                      coarsest_surface_level,
+                      "Level of the leaves around the surface where it is smooth, and liquid and "
+                      "gaps are thick; all of the surface has the Surface level if that is not "
+                      "larger.",
+                      Patterns::Integer(0, 18));
+    prm.add_parameter("Leaves per radius",
+                      leaves_per_radius,
+                      "Between the two surface levels leaves are so small that a radius of curvature "
+                      "has as many; 0: curvature asks for nothing.",
+                      Patterns::Double(0, 100));
+    prm.add_parameter("Leaves across",
+                      leaves_across,
+                      "Between the two surface levels leaves are so small that as many lie across "
+                      "liquid, or a gap between liquid; 0: thickness asks for nothing.",
+                      Patterns::Double(0, 100));
+    prm.add_parameter("Size",
+                      size,
+                      "Largest edge (m) of leaves in the liquid and along the surface, down to those of "
+                      "the Surface level; a formula in " +
+                        std::string(dim == 2 ? "x,y,t" : "x,y,z,t") + ". Empty: any.");
   }
 
   template <int dim>
@@ -87,6 +116,8 @@ namespace treacle
     require(interior_level <= surface_level && air_level <= surface_level,
             "Mesh/Interior level and Mesh/Air level must not be larger than Mesh/Surface "
             "level.");
+    if (!size.empty())
+      Expression<dim>(size, "Mesh/Size", true);
   }
 
   template <int dim>
@@ -94,6 +125,16 @@ namespace treacle
   OctreeParameters<dim>::finest_size() const
   {
     return std::ldexp(shortest_edge() / root_cells, -static_cast<int>(surface_level));
+  }
+
+  template <int dim>
+  unsigned int
+  OctreeParameters<dim>::level_of(const double size) const
+  {
+    unsigned int level = 0;
+    while (level < surface_level && size_of(level) > size * (1 + 1e-9))
+      ++level;
+    return level;
   }
 
   template struct OctreeParameters<2>;

@@ -67,6 +67,11 @@ namespace treacle
       "slip; left, right: free slip\": left and right along x, bottom "
       "and top along the last axis, in 3D front and back along y. Walls of a "
       "mesh from a file that are no side of its box have the default.");
+    prm.add_parameter("Wall level",
+                      wall_level,
+                      "Smallest level of the leaves of liquid along sides of the box where it does "
+                      "not slip; at most Mesh/Surface level.",
+                      Patterns::Integer(0, 18));
     prm.leave_subsection();
   }
 
@@ -118,6 +123,7 @@ namespace treacle
     , lower(parameters.lower_corner)
     , upper(parameters.upper_corner)
     , walls(parse_wall_condition<dim>(parameters.wall_condition))
+    , wall_level(parameters.wall_level)
     , material(parameters.material, "Material")
     , transport(parameters.transport)
     , gravity_at(parameters.acceleration, "Gravity/Acceleration")
@@ -171,6 +177,25 @@ namespace treacle
   Scene<dim>::no_slip(const unsigned int wall) const
   {
     return walls[std::min(wall, 2u * dim)] == WallCondition::no_slip;
+  }
+
+  template <int dim>
+  unsigned int
+  Scene<dim>::level_near(const Point<dim> &x, const double distance, const double t) const
+  {
+    const unsigned int level = this->level_near_solids(x, distance, t);
+    for (unsigned int side = 0; side < 2 * dim && wall_level > level; ++side)
+      if (const unsigned int d = side / 2;
+          no_slip(side) && (side % 2 == 0 ? x[d] - lower[d] : upper[d] - x[d]) < distance)
+        return wall_level;
+    return level;
+  }
+
+  template <int dim>
+  bool
+  Scene<dim>::asks_for_levels() const
+  {
+    return wall_level > 0 || this->solids_ask_for_levels();
   }
 
   template <int dim>

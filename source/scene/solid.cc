@@ -12,6 +12,11 @@ namespace treacle
   {
     shape.add_parameters(prm);
     motion.add_parameters(prm);
+    prm.add_parameter("Level",
+                      level,
+                      "Smallest level of the leaves of liquid along the solid, whether or not the "
+                      "surface is near; at most Mesh/Surface level.",
+                      Patterns::Integer(0, 18));
   }
 
   namespace
@@ -43,6 +48,7 @@ namespace treacle
     : where(where)
     , box(box)
     , shape(prm.shape, where, comm)
+    , level_beside(prm.level)
     , motion(prm.motion, where)
   {
     if (!motion.is_moving())

@@ -95,6 +95,26 @@ namespace treacle
   }
 
   template <int dim>
+  unsigned int
+  Solids<dim>::level_near_solids(const Point<dim> &x, const double distance, const double t) const
+  {
+    unsigned int level = 0;
+    for (const Solid<dim> &solid : solids)
+      if (solid.level() > level && std::abs(solid.signed_distance(x, t)) < distance)
+        level = solid.level();
+    return level;
+  }
+
+  template <int dim>
+  bool
+  Solids<dim>::solids_ask_for_levels() const
+  {
+    return std::any_of(solids.begin(), solids.end(), [](const Solid<dim> &solid) {
+      return solid.level() > 0;
+    });
+  }
+
+  template <int dim>
   Point<dim>
   Solids<dim>::solid_centre(const unsigned int k, const double t) const
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/mesh/surface_size.h>
 #include <treacle/surface/marker_correction.h>
 #include <treacle/surface/smooth_level_set.h>
 
@@ -19,7 +20,7 @@ namespace treacle
     }
 
     /// How far a marker is felt, and the thickness below which films are left to phi, in
-    /// finest leaves.
+    /// leaves.
     constexpr double reach = 1.25, thinnest = 0.5;
 
     /// Wendland's function, whose Fourier transform is positive. With others the mean over
@@ -133,19 +134,19 @@ namespace treacle
   MarkerCorrection<dim>::MarkerCorrection(const State<dim> &state)
     : mesh(*state.mesh)
     , position(positions(state.markers))
-    , markers(mesh, state.markers, reach * mesh.finest_size())
+    , markers(mesh, state.markers, reach)
     , of_node(mesh.n_owned_nodes(), {invalid, invalid})
   {}
 
   template <int dim>
   typename MarkerCorrection<dim>::Near
-  MarkerCorrection<dim>::around(const LocalIndex node)
+  MarkerCorrection<dim>::around(const LocalIndex node, const double size)
   {
     auto &[begin, end] = of_node[node];
     if (begin == invalid)
       {
         begin = near.size();
-        markers.append_around(mesh.node_position[node], near);
+        markers.append_around(mesh.node_position[node], size, near);
         end = near.size();
       }
     return Near(near.data() + begin, end - begin);
@@ -155,7 +156,6 @@ namespace treacle
   void
   MarkerCorrection<dim>::apply(State<dim> &state)
   {
-    const double        h = mesh.finest_size();
     std::vector<double> values;
     for (const auto &at : SmoothLevelSet<dim>(mesh, state.phi).samples(position, guesses))
       values.push_back(at.smoothness < 0.5 ? std::nan("") : at.value);
@@ -163,9 +163,12 @@ namespace treacle
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
         double &phi = state.phi.local_element(node);
+        if (std::abs(phi) > 3 * mesh.surface_size())
+          continue;
+        const double h = surface_size_at_node(mesh, node);
         if (std::abs(phi) > 3 * h)
           continue;
-        if (const Near near = around(node); near.size() > 0)
+        if (const Near near = around(node, h); near.size() > 0)
           phi = corrected<dim>(mesh.node_position[node], phi, near, h);
       }
     state.phi.update_ghost_values();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/mesh/surface_size.h>
 #include <treacle/surface/marker_seeding.h>
 #include <treacle/surface/near_markers.h>
 
@@ -55,7 +56,7 @@ namespace treacle
         , mesh(*state.mesh)
         , scene(scene)
         , surface(surface)
-        , density(per_cell / (mean_facet_area<dim> * std::pow(mesh.finest_size(), dim - 1)))
+        , per_cell(per_cell)
         , count(mesh.cells)
         , wanted(mesh.cells)
       {}
@@ -79,12 +80,19 @@ namespace treacle
         return sum;
       }
 
+      /// Markers per area.
+      double
+      density(const LocalIndex cell) const
+      {
+        return per_cell / (mean_facet_area<dim> * std::pow(surface_size_of_cell(mesh, cell), dim - 1));
+      }
+
       void
       measure_cells()
       {
         for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
           for_each_facet(mesh, state.phi, c, [&](const auto &x) {
-            wanted.local_element(c) += density * area_vector<dim>(x).norm();
+            wanted.local_element(c) += density(c) * area_vector<dim>(x).norm();
           });
         wanted.update_ghost_values();
       }
@@ -141,7 +149,7 @@ namespace treacle
               const Tensor<1, dim> area = area_vector<dim>(x);
               if (area.norm() == 0)
                 return;
-              part += missing * density * area.norm() / target;
+              part += missing * density(c) * area.norm() / target;
               for (unsigned int k = 1; part >= 1; part -= 1, ++k)
                 seeds.push_back({even_point<dim>(x, start, k), area / area.norm()});
             });
@@ -157,8 +165,7 @@ namespace treacle
       void
       keep_in_line(std::vector<Marker<dim>> &seeds) const
       {
-        const double           reach = 0.75 * mesh.finest_size();
-        const NearMarkers<dim> markers(mesh, state.markers, reach);
+        const MarkersWithinLeaves<dim>             markers(mesh, state.markers, 0.75);
         std::vector<Marker<dim>>                   kept;
         std::vector<const NearMarker<dim> *> near;
         for (const Marker<dim> &seed : seeds)
@@ -166,11 +173,18 @@ namespace treacle
             if (scene.has_solids() && scene.solid_distance(seed.position, state.time) < 0)
               continue;
             near.clear();
-            markers.append_around(seed.position, near);
+            markers.append_around(seed.position, size_at(seed.position), near);
             if (near.empty() || nearest<dim>(seed.position, {near.data(), near.size()}).normal * seed.normal > 0.5)
               kept.push_back(seed);
           }
         seeds = std::move(kept);
+      }
+
+      double
+      size_at(const Point<dim> &x) const
+      {
+        const LocalIndex cell = mesh.locator().locate_here(x).cell;
+        return cell == invalid ? mesh.finest_size() : surface_size_of_cell(mesh, cell);
       }
 
       /// From the facets to the smooth surface they are chords of.
@@ -197,7 +211,7 @@ namespace treacle
       const Mesh<dim>            &mesh;
       const Scene<dim>           &scene;
       const SurfaceGeometry<dim> &surface;
-      const double                density; ///< markers per area
+      const double                per_cell; ///< markers, in the mean
       Vector                      count;   ///< of markers in each cell
       Vector                      wanted;
       std::vector<LocalIndex>     cells; ///< of the markers of this rank

@@ -113,6 +113,37 @@ namespace treacle
       }
   }
 
+  template <int dim>
+  MarkersWithinLeaves<dim>::MarkersWithinLeaves(const Mesh<dim>                &mesh,
+                                                const std::vector<Marker<dim>> &markers,
+                                                const double                    leaves)
+    : finest(mesh.finest_size())
+  {
+    of_size.emplace_back(mesh, markers, leaves * finest);
+    if (mesh.is_lattice())
+      for (double size = 2 * finest; size < 1.5 * mesh.surface_size(); size *= 2)
+        of_size.emplace_back(mesh, markers, leaves * size);
+  }
+
+  template <int dim>
+  void
+  MarkersWithinLeaves<dim>::set_values(const std::vector<double> &values)
+  {
+    for (NearMarkers<dim> &markers : of_size)
+      markers.set_values(values);
+  }
+
+  template <int dim>
+  void
+  MarkersWithinLeaves<dim>::append_around(const Point<dim>                     &x,
+                                          const double                          size,
+                                          std::vector<const NearMarker<dim> *> &result) const
+  {
+    of_size[std::lround(std::log2(size / finest))].append_around(x, result);
+  }
+
+  template class MarkersWithinLeaves<2>;
+  template class MarkersWithinLeaves<3>;
   template class NearMarkers<2>;
   template class NearMarkers<3>;
 } // namespace treacle

@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/exceptions.h>
+#include <treacle/mesh/surface_size.h>
 #include <treacle/surface/stray_markers.h>
 
 namespace treacle
@@ -42,13 +43,15 @@ namespace treacle
                        const SurfaceGeometry<dim> &surface)
   {
     const Mesh<dim> &mesh   = *state.mesh;
-    const double     h      = mesh.finest_size();
-    const auto               samples = surface.level_set.samples(positions(state.markers));
+    Guesses                  cells;
+    const auto               samples = surface.level_set.samples(positions(state.markers), cells);
     std::vector<Marker<dim>> kept;
     unsigned int             n_lost = 0;
     for (unsigned int k = 0; k < samples.size(); ++k)
       {
         const Marker<dim>  &marker    = state.markers[k];
+        const double        h         = cells[k] == invalid ? mesh.finest_size() :
+                                                              surface_size_of_cell(mesh, cells[k]);
         const double        phi       = samples[k].value;
         const bool          is_smooth = samples[k].smoothness > 0.9;
         const Tensor<1, dim> gradient = samples[k].gradient;

@@ -1,36 +1,27 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/fields/initial_state.h>
 #include <treacle/mesh/lattice_mesh.h>
-#include <treacle/surface/surface.h>
+#include <treacle/mesh/surface_size.h>
+#include <treacle/surface/redistance.h>
+#include <treacle/transport/bands.h>
+#include <treacle/transport/octree_growth.h>
 #include <treacle/transport/remesh.h>
+#include <treacle/transport/time_step.h>
 
 namespace treacle
 {
   namespace
   {
-    /// phi at any points, collectively.
-    template <int dim>
-    using LevelSet = std::function<std::vector<double>(const std::vector<Point<dim>> &)>;
+    /// By how much leaves may be larger than the surface asks for before a new mesh is made, lest
+    /// meshes flicker; and of what it asks for, what larger ones must be.
+    constexpr double too_large = 1.25, too_small = 0.75;
+    /// How often a coarser mesh is looked for, and the part of the leaves that it may have.
+    constexpr unsigned int steps_between_looks = 8;
+    constexpr double       worth_while         = 0.7;
 
-    /// A facet's corners and centre, with its normal, are what a band is laid around.
-    template <int dim>
-    void
-    append(std::vector<BandPoint<dim>> &points, const std::array<Point<dim>, dim> &facet)
-    {
-      Tensor<1, dim> normal = area_vector<dim>(facet);
-      if (const double area = normal.norm(); area > 0)
-        normal /= area;
-      Point<dim> centre;
-      for (const Point<dim> &x : facet)
-        {
-          points.push_back({x, normal});
-          centre += x / dim;
-        }
-      points.push_back({centre, normal});
-    }
-
-    /// Those of the liquids at t = 0 on the lattice of an octree: no mesh is needed for that.
+    /// The surface of the liquids at t = 0 on the lattice of an octree: no mesh is needed for that.
     template <int dim>
     std::vector<BandPoint<dim>>
     initial_surface(const std::shared_ptr<const Octree<dim>> &octree, const Scene<dim> &scene)
@@ -62,10 +53,11 @@ namespace treacle
     /// about as much as a step, (1 + 1/n) (A + B n s) for each of n, and B is about A/9.
     template <int dim>
     void
-    append_way_ahead(std::vector<BandPoint<dim>>   &points,
-                     const Mesh<dim>               &mesh,
-                     const std::vector<Point<dim>> &now,
-                     const std::vector<Point<dim>> &next)
+    append_way_ahead(BandPoints<dim>                 &points,
+                     const Mesh<dim>                 &mesh,
+                     const std::vector<Point<dim>>   &now,
+                     const std::vector<Point<dim>>   &next,
+                     const std::vector<unsigned int> &level)
     {
       double furthest = 0;
       for (unsigned int i = 0; i < now.size(); ++i)
@@ -80,131 +72,154 @@ namespace treacle
           const Tensor<1, dim> way      = n_steps * (next[i] - now[i]);
           const unsigned int   n_points = std::ceil(way.norm() / h);
           for (unsigned int k = 1; k <= n_points; ++k)
-            points.push_back({next[i] + way * k / n_points, {}});
+            points[level[i]].push_back({next[i] + way * k / n_points, {}});
         }
     }
 
-    /// Centre of a leaf of an octree that is still growing.
-    template <int dim>
-    Point<dim>
-    centre(const typename Octree<dim>::Parameters &prm, const Leaf<dim> &leaf)
-    {
-      Point<dim> x = prm.lower_corner;
-      for (unsigned int d = 0; d < dim; ++d)
-        x[d] += 0.5 * prm.finest_size() * leaf.centre()[d];
-      return x;
-    }
-
-    /// Is a leaf of an octree that is still growing within @p margin (m) of where a
-    /// distance vanishes?
-    template <int dim>
-    bool
-    is_within(const typename Octree<dim>::Parameters &prm,
-              const Leaf<dim>                        &leaf,
-              const double                            distance,
-              const double                            margin)
-    {
-      const double half_diagonal = 0.25 * std::sqrt(1. * dim) * prm.finest_size() * leaf.size;
-      return std::abs(distance) < half_diagonal + margin;
-    }
-
-    template <int dim>
-    BandWidths
-    widths(const OctreeParameters<dim> &prm)
-    {
-      return {prm.band_width + 1., prm.air_band_width + 0.5};
-    }
-
-    /// Leaves that the band touches, or that are as near to an emitter.
-    template <int dim>
-    std::vector<bool>
-    near_surface(const Band<dim>                        &band,
-                 const typename Octree<dim>::Parameters &prm,
-                 const Scene<dim>                       &scene,
-                 const double                            time,
-                 const std::vector<Leaf<dim>>           &leaves)
-    {
-      std::vector<bool> result = band.touches(leaves);
-      if (!scene.emitters().empty())
-        for (unsigned int i = 0; i < leaves.size(); ++i)
-          result[i] =
-            result[i] ||
-            is_within(prm,
-                      leaves[i],
-                      scene.distance_to_emitter_boundary(centre<dim>(prm, leaves[i]), time),
-                      prm.band_width * prm.finest_size());
-      return result;
-    }
-
-    /// Do finest leaves make a difference there? Not in solids from a leaf or two on; only
-    /// signs tell, for the distance of an expression need not be one.
-    template <int dim>
-    std::function<bool(const Point<dim> &)>
-    outside_solids(const Scene<dim> &scene, const double h, const double time)
-    {
-      if (!scene.has_solids())
-        return [](const Point<dim> &) { return true; };
-      return [&scene, h, time](const Point<dim> &x) {
-        bool is_open = scene.solid_distance(x, time) >= 0;
-        for (unsigned int k = 0; k < 2 * dim && !is_open; ++k)
-          {
-            Point<dim> aside = x;
-            aside[k / 2] += k % 2 == 0 ? 2 * h : -2 * h;
-            is_open = scene.solid_distance(aside, time) >= 0;
-          }
-        return is_open;
-      };
-    }
-
-    /// What leaves cost with phi at their centres, in microseconds of a step: the liquid, and more
-    /// where the surface cuts it, the air little.
+    /// The level that each vertex of a surface asks for, with leaves that may be larger by a factor
+    /// than the sizes (m) at nodes.
     template <int dim>
     std::vector<unsigned int>
-    costs(const typename Octree<dim>::Parameters &prm,
-          const std::vector<Leaf<dim>>           &leaves,
-          const std::vector<double>              &phi)
+    vertex_levels(const OctreeParameters<dim> &prm,
+                  const Surface<dim>          &surface,
+                  const Vector                &size,
+                  const double                 factor)
     {
-      std::vector<unsigned int> result;
-      for (unsigned int i = 0; i < leaves.size(); ++i)
-        result.push_back((phi[i] < 0 ? 14 : 3) + (is_within(prm, leaves[i], phi[i], 0.) ? 10 : 0));
-      return result;
+      std::vector<unsigned int> levels;
+      for (const auto &vertex : surface.vertices)
+        levels.push_back(std::max(prm.coarsest_at_surface(),
+                                  prm.level_of(factor * std::min(size.local_element(vertex.a),
+                                                                 size.local_element(vertex.b)))));
+      return levels;
     }
 
-    /// Refine where @p is_near says, inside the liquid to the interior level and
-    /// everywhere to the air level; every rank has about the same work with it.
+    /// A surface after a step.
     template <int dim>
-    std::shared_ptr<const Octree<dim>>
-    grow(const MPI_Comm                         &comm,
-         const typename Octree<dim>::Parameters &prm,
-         const std::function<std::vector<bool>(const std::vector<Leaf<dim>> &)> &is_near,
-         const LevelSet<dim>                                                    &phi)
+    struct NextSurface
     {
-      const auto phi_at_centres = [&](const std::vector<Leaf<dim>> &leaves) {
-        std::vector<Point<dim>> x;
+      const Mesh<dim>                &mesh;
+      const Surface<dim>             &surface;
+      const std::vector<Point<dim>>  &vertices; ///< of it, after the step
+      const std::vector<Marker<dim>> &markers;
+      const Vector                   &size; ///< that it asks for (m), at nodes
+
+      /// With leaves that may be larger by a factor. Markers that left the surface behind are in the
+      /// coarsest band.
+      BandPoints<dim>
+      points(const double factor) const
+      {
+        const OctreeParameters<dim> &prm = mesh.octree().parameters();
+        BandPoints<dim>              result =
+          facets_by_level(surface, vertices, vertex_levels(prm, surface, size, factor));
+        for (const Marker<dim> &marker : markers)
+          result[prm.coarsest_at_surface()].push_back({marker.position, {}});
+        return result;
+      }
+
+      /// And where it goes on to.
+      BandPoints<dim>
+      points_ahead() const
+      {
+        BandPoints<dim> result = points(1);
+        append_way_ahead(result,
+                         mesh,
+                         surface.positions,
+                         vertices,
+                         vertex_levels(mesh.octree().parameters(), surface, size, 1));
+        return result;
+      }
+    };
+
+    template <int dim>
+    std::vector<Leaf<dim>>
+    owned_leaves(const Octree<dim> &octree)
+    {
+      return {octree.leaves().begin(), octree.leaves().begin() + octree.n_owned_leaves()};
+    }
+
+    /// On all ranks. Collective.
+    template <int dim>
+    double
+    n_leaves(const Octree<dim> &octree)
+    {
+      return Utilities::MPI::sum(1. * octree.n_owned_leaves(), octree.communicator());
+    }
+
+    /// Would half of the cells along the surface do, where it has sizes? Collective.
+    template <int dim>
+    bool
+    is_too_fine(const Mesh<dim> &mesh, const Vector &size)
+    {
+      const OctreeParameters<dim> &prm = mesh.octree().parameters();
+      Tensor<1, 2> count; // of nodes at the surface, and of those that it asks for
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        if (const double s = size.local_element(node); s > 0)
+          {
+            const double asked = prm.size_of(prm.level_of(too_small * s));
+            count[0] += 1;
+            count[1] += std::pow(std::min(1., surface_size_at_node(mesh, node) / asked), dim - 1);
+          }
+      count = Utilities::MPI::sum(count, mesh.communicator());
+      return count[1] < 0.5 * count[0];
+    }
+  } // namespace
+
+  namespace
+  {
+    /// Leaves that distances say the surface is in, to a level where their corners show it. Something
+    /// small may hide between corners all on one side.
+    template <int dim>
+    typename Octree<dim>::Criterion
+    around_distances(const OctreeParameters<dim> &prm, const Scene<dim> &scene)
+    {
+      return [&](const std::vector<Leaf<dim>> &leaves) {
+        std::vector<bool> near;
         for (const Leaf<dim> &leaf : leaves)
-          x.push_back(centre<dim>(prm, leaf));
-        return phi(x);
+          {
+            const double distance = scene.liquid_distance(centre<dim>(prm, leaf));
+            bool         refine   = is_within(prm, leaf, distance, prm.finest_size());
+            if (refine && leaf.level >= prm.coarsest_at_surface())
+              for (unsigned int corner = 0; corner < 1u << dim && refine; ++corner)
+                refine = (scene.liquid_distance(vertex_of_cube<dim>(
+                            centre<dim>(prm, leaf), prm.size_of(leaf.level), corner)) < 0) ==
+                         (distance < 0);
+            near.push_back(refine);
+          }
+        return near;
       };
-      return std::make_shared<const Octree<dim>>(
-        comm,
-        prm,
-        [&](const std::vector<Leaf<dim>> &leaves) {
-          std::vector<bool> refine = is_near(leaves);
-          // ranks without leaves of this level do not know it
-          const unsigned int level =
-            Utilities::MPI::max(leaves.empty() ? 0u : leaves.front().level, comm);
-          if (level < prm.air_level)
-            return std::vector<bool>(leaves.size(), true);
-          if (level >= prm.interior_level)
-            return refine;
-          const std::vector<double> values = phi_at_centres(leaves);
-          for (unsigned int i = 0; i < leaves.size(); ++i)
-            refine[i] = refine[i] || values[i] < 0;
-          return refine;
-        },
-        [&](const std::vector<Leaf<dim>> &leaves) {
-          return costs<dim>(prm, leaves, phi_at_centres(leaves));
-        });
+    }
+
+    /// Refines where the surface on the mesh before asks for it, until it asks for no more: not
+    /// everywhere to the finest level first, which no memory may hold.
+    template <int dim>
+    std::shared_ptr<const Mesh<dim>>
+    mesh_by_sizes(std::shared_ptr<const Octree<dim>> octree,
+                  const Sizing<dim>                 &sizing,
+                  const OctreeGrowth<dim>           &growth,
+                  const Scene<dim>                  &scene)
+    {
+      const OctreeParameters<dim> prm = octree->parameters();
+      for (unsigned int level = prm.coarsest_at_surface();; ++level)
+        {
+          const auto mesh = std::make_shared<const Mesh<dim>>(octree);
+          if (level == prm.surface_level + 2)
+            return mesh;
+          State<dim> state(mesh);
+          set_initial_level_set(state, scene);
+          redistance(state, TimeStep<dim>::reach_of_distance(0, *mesh));
+          const SurfaceGeometry<dim> surface(mesh, state.phi);
+          const Vector               size = sizing.at_surface(state, surface);
+          const Bands<dim>           bands(*octree,
+                                 scene,
+                                 0.,
+                                 facets_by_level(surface.facets,
+                                                 surface.facets.positions,
+                                                 vertex_levels(prm, surface.facets, size, 1)),
+                                 false);
+          if (level > prm.coarsest_at_surface() && bands.are_in_leaves())
+            return mesh;
+          octree = growth.grow([&](const auto &leaves) { return bands.touch(leaves); });
+        }
     }
   } // namespace
 
@@ -214,34 +229,23 @@ namespace treacle
                const typename Octree<dim>::Parameters &prm,
                const Scene<dim>                       &scene)
   {
-    const LevelSet<dim> phi = [&](const std::vector<Point<dim>> &x) {
+    const Sizing<dim>       sizing(prm, scene);
+    const OctreeGrowth<dim> growth(comm, prm, sizing, 0., [&](const std::vector<Point<dim>> &x) {
       std::vector<double> values;
       values.reserve(x.size());
       for (const Point<dim> &p : x)
         values.push_back(scene.liquid_distance(p));
       return values;
-    };
+    });
     // first where the distance is small, then around what was found: an
     // expression need not be a distance
-    const auto octree = grow<dim>(
-      comm,
-      prm,
-      [&](const std::vector<Leaf<dim>> &leaves) {
-        std::vector<bool> near;
-        for (const Leaf<dim> &leaf : leaves)
-          near.push_back(is_within(prm,
-                                   leaf,
-                                   scene.liquid_distance(centre<dim>(prm, leaf)),
-                                   prm.finest_size()));
-        return near;
-      },
-      phi);
-    const Band<dim> band(*octree,
-                         initial_surface<dim>(octree, scene),
-                         widths(prm),
-                         outside_solids(scene, prm.finest_size(), 0.));
-    return std::make_shared<const Mesh<dim>>(grow<dim>(
-      comm, prm, [&](const auto &leaves) { return near_surface(band, prm, scene, 0., leaves); }, phi));
+    const auto octree = growth.grow(around_distances(prm, scene));
+    if (!sizing.is_uniform_at_surface())
+      return mesh_by_sizes(octree, sizing, growth, scene);
+    const Bands<dim> bands(
+      *octree, scene, 0., {{prm.surface_level, initial_surface<dim>(octree, scene)}}, false);
+    return std::make_shared<const Mesh<dim>>(
+      growth.grow([&](const auto &leaves) { return bands.touch(leaves); }));
   }
 
   template <int dim>
@@ -257,29 +261,30 @@ namespace treacle
     const Mesh<dim> &mesh = *state.mesh;
     if (!mesh.is_lattice())
       return state.mesh;
-    const Octree<dim>            &octree  = mesh.octree();
-    const auto is_needed = outside_solids(scene, mesh.finest_size(), state.time + dt);
-    std::vector<BandPoint<dim>>   points;
-    for (unsigned int k = 0; k < surface.facets.facets.size(); ++k)
-      append<dim>(points, surface.facets.facet_points(k, next));
-    for (const Marker<dim> &marker : markers)
-      points.push_back({marker.position, {}});
-    if (Band<dim>(octree, points, {}, is_needed).is_finest_in(octree))
-      return state.mesh;
-    append_way_ahead(points, mesh, surface.facets.positions, next);
-    const Band<dim> band(octree, points, widths(octree.parameters()), is_needed);
-    return std::make_shared<const Mesh<dim>>(grow<dim>(
-      mesh.communicator(),
-      octree.parameters(),
-      [&](const auto &leaves) {
-        return near_surface(band, octree.parameters(), scene, state.time + dt, leaves);
-      },
-      [&](const std::vector<Point<dim>> &x) {
+    const Octree<dim>           &octree = mesh.octree();
+    const OctreeParameters<dim> &prm    = octree.parameters();
+    const double                 time   = state.time + dt;
+    const Sizing<dim>            sizing(prm, scene);
+    const OctreeGrowth<dim>      growth(
+      mesh.communicator(), prm, sizing, time, [&](const std::vector<Point<dim>> &x) {
         std::vector<double> phi = advection.level_set(x);
         for (unsigned int i = 0; i < x.size(); ++i)
-          phi[i] = std::min(phi[i], scene.emitter_distance(x[i], state.time + dt));
+          phi[i] = std::min(phi[i], scene.emitter_distance(x[i], time));
         return phi;
-      }));
+      });
+    const Vector size = sizing.is_uniform_at_surface() ? mesh.zeros(mesh.nodes) :
+                                                         sizing.at_surface(state, surface);
+    const NextSurface<dim> moved{mesh, surface.facets, next, markers, size};
+    const bool             is_fine_enough =
+      Bands<dim>(octree, scene, time, moved.points(too_large), true).are_in_leaves() &&
+      !(sizing.asks_in_liquid() && growth.is_any_too_coarse(owned_leaves(octree)));
+    if (is_fine_enough && (state.step % steps_between_looks != 0 || !is_too_fine(mesh, size)))
+      return state.mesh;
+    const Bands<dim> bands(octree, scene, time, moved.points_ahead(), false);
+    const auto       tree = growth.grow([&](const auto &leaves) { return bands.touch(leaves); });
+    return is_fine_enough && n_leaves(*tree) > worth_while * n_leaves(octree) ?
+             state.mesh :
+             std::make_shared<const Mesh<dim>>(tree);
   }
 
 #define INSTANTIATE(dim)                                                        \

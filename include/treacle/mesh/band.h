@@ -6,6 +6,8 @@
 
 #include <treacle/mesh/octree.h>
 
+#include <optional>
+
 namespace treacle
 {
   /// A point to lay a band around: of a surface with its unit normal out of the liquid, or
@@ -17,15 +19,15 @@ namespace treacle
     Tensor<1, dim> outward;
   };
 
-  /// How far a band goes, between the centres of cubes, in finest leaves.
+  /// How far a band goes, between the centres of cubes, in their edges.
   struct BandWidths
   {
     double inner = 0; ///< against the normal
     double outer = 0; ///< along it
   };
 
-  /// The finest cubes of the octree's lattice around a set of points, on all ranks together:
-  /// those that touch the cube of a point, and those within its widths.
+  /// The cubes of one level around a set of points, on all ranks together: those that touch the
+  /// cube of a point, and those within its widths.
   template <int dim>
   class Band
   {
@@ -33,21 +35,29 @@ namespace treacle
     /// @p points of this rank; only cubes whose centres @p is_needed. Collective; throws on all
     /// ranks alike what that throws on one.
     Band(const Octree<dim>                             &octree,
+         const unsigned int                             level,
          const std::vector<BandPoint<dim>>             &points,
          const BandWidths                              &widths,
          const std::function<bool(const Point<dim> &)> &is_needed);
 
-    /// Is every cube a leaf of the finest level? Collective.
+    /// Is every cube a leaf, or part of none? Collective.
     bool
-    is_finest_in(const Octree<dim> &octree) const;
+    is_in_leaves_of(const Octree<dim> &octree) const;
 
-    /// Which of these leaves, all of one level, hold a cube of any rank? Collective.
+    /// Which of these leaves, all of one level, hold smaller cubes of any rank? Collective.
     std::vector<bool>
     touches(const std::vector<Leaf<dim>> &leaves) const;
 
   private:
+    /// The one that is @p step cubes away, unless it is outside of the box.
+    std::optional<VertexKey>
+    cube_at(const VertexKey          cube,
+            const LatticePoint<dim> &step,
+            const LatticePoint<dim> &extent) const;
+
     MPI_Comm               comm;
-    unsigned int           finest_level;
+    int                    root; ///< edge of a root cube, in lattice units
+    int                    size; ///< of a cube
     std::vector<VertexKey> cubes; ///< lowest corners, sorted
   };
 } // namespace treacle

@@ -8,6 +8,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <cmath>
+#include <string>
 #include <vector>
 
 namespace treacle
@@ -20,10 +22,16 @@ namespace treacle
     Point<dim>   upper_corner;
     unsigned int root_cells     = 1;
     unsigned int surface_level  = 6;
+    unsigned int coarsest_surface_level = 18; ///< if less than the surface level
     unsigned int interior_level = 4;
     unsigned int air_level      = 3;
     unsigned int band_width     = 3;
     unsigned int air_band_width = 1;
+
+    // what asks for finer leaves along the surface than the coarsest
+    double      leaves_per_radius = 4; ///< of curvature
+    double      leaves_across     = 4; ///< liquid and gaps
+    std::string size;                  ///< of leaves (m), a formula; empty: any
 
     /// Throws a UserError where no octree fits.
     void
@@ -32,6 +40,24 @@ namespace treacle
     /// Edge of a leaf of the surface level (m).
     double
     finest_size() const;
+
+    /// Smallest level of leaves that the surface passes through.
+    unsigned int
+    coarsest_at_surface() const
+    {
+      return std::min(coarsest_surface_level, surface_level);
+    }
+
+    /// Edge of a leaf (m).
+    double
+    size_of(const unsigned int level) const
+    {
+      return std::ldexp(finest_size(), static_cast<int>(surface_level) - static_cast<int>(level));
+    }
+
+    /// The smallest level whose leaves are no larger than @p size (m), up to the surface level.
+    unsigned int
+    level_of(const double size) const;
 
     /// Root cubes along each axis. Throws a UserError where cubes cannot tile the box.
     std::vector<unsigned int>
@@ -42,6 +68,10 @@ namespace treacle
     add_parameters(ParameterHandler &prm);
 
   private:
+    /// What makes leaves finer than they must be.
+    void
+    add_sizes(ParameterHandler &prm);
+
     double
     shortest_edge() const;
   };

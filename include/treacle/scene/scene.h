@@ -33,6 +33,7 @@ namespace treacle
       Point<dim>        lower_corner;
       Point<dim>        upper_corner   = diagonal_point<dim>(1);
       std::string       wall_condition = "no slip";
+      unsigned int      wall_level     = 0; ///< of leaves with liquid along walls that hold it
       MaterialTransport transport      = MaterialTransport::fixed;
       std::string       acceleration   = (dim == 2 ? "0; -9.81" : "0; 0; -9.81"); // m/s^2
 
@@ -71,6 +72,15 @@ namespace treacle
     /// (upper ? 1 : 0); all others, see Walls, have the default condition.
     bool
     no_slip(const unsigned int wall) const;
+
+    /// The largest level that is asked for by solids and sides of the box closer than @p distance
+    /// (m); 0: none.
+    unsigned int
+    level_near(const Point<dim> &x, const double distance, const double t) const;
+
+    /// Is any asked for?
+    bool
+    asks_for_levels() const;
 
     unsigned int
     n_liquids() const;
@@ -123,6 +133,7 @@ namespace treacle
 
     Point<dim>            lower, upper;
     WallConditions<dim>   walls;
+    unsigned int          wall_level;
     Material<dim>         material;
     MaterialTransport     transport;
     VectorExpression<dim> gravity_at;

@@ -20,6 +20,7 @@ namespace treacle
     {
       typename Shape<dim>::Parameters       shape;
       typename RigidMotion<dim>::Parameters motion;
+      unsigned int                          level = 0; ///< of leaves with liquid beside it
 
       /// Declare in the current subsection.
       void
@@ -46,6 +47,13 @@ namespace treacle
     Tensor<1, dim>
     velocity(const Point<dim> &x, const double t) const;
 
+    /// That leaves with liquid beside it must have; 0: any.
+    unsigned int
+    level() const
+    {
+      return level_beside;
+    }
+
     /// Of its rotation (m).
     Point<dim>
     centre(const double t) const;
@@ -59,6 +67,7 @@ namespace treacle
     const std::string      where;
     const BoundingBox<dim> box;
     const Shape<dim>       shape;
+    const unsigned int     level_beside;
     RigidMotion<dim>       motion;
     /// Points of it that are in the box at t = 0, if it moves.
     std::vector<Point<dim>> sample;

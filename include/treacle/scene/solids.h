@@ -46,6 +46,14 @@ namespace treacle
     unsigned int
     nearest_solid(const Point<dim> &x, const double t) const;
 
+    /// The largest level that solids ask for whose walls are closer than @p distance (m); 0: none.
+    unsigned int
+    level_near_solids(const Point<dim> &x, const double distance, const double t) const;
+
+    /// Does any solid ask for a level?
+    bool
+    solids_ask_for_levels() const;
+
     /// Centre of rotation of solid k (m).
     Point<dim>
     solid_centre(const unsigned int k, const double t) const;

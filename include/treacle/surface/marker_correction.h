@@ -28,14 +28,14 @@ namespace treacle
   private:
     using Near = ArrayView<const NearMarker<dim> *const>;
 
-    /// Markers around a node.
+    /// Markers around a node, with leaves of a size (m) beside it.
     Near
-    around(const LocalIndex node);
+    around(const LocalIndex node, const double size);
 
     const Mesh<dim>                                      &mesh;
     const std::vector<Point<dim>>                         position;
     Guesses                                               guesses; ///< for the positions
-    NearMarkers<dim>                                      markers;
+    MarkersWithinLeaves<dim>                              markers;
     std::vector<const NearMarker<dim> *>                  near;    ///< of one node after another
     std::vector<std::pair<unsigned int, unsigned int>>    of_node; ///< begin and end, once known
   };

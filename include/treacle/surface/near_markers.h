@@ -67,6 +67,33 @@ namespace treacle
     std::vector<unsigned int>                                             place;
     std::unordered_map<VertexKey, std::pair<unsigned int, unsigned int>> cubes; ///< begin, end
   };
+
+
+
+  /// The same with a reach of so many leaves, which are smaller here and larger there.
+  template <int dim>
+  class MarkersWithinLeaves
+  {
+  public:
+    /// @p markers of this rank; collective.
+    MarkersWithinLeaves(const Mesh<dim>                &mesh,
+                        const std::vector<Marker<dim>> &markers,
+                        const double                    leaves);
+
+    /// See NearMarkers. Collective.
+    void
+    set_values(const std::vector<double> &values);
+
+    /// Those within the reach that leaves of a size (m) give.
+    void
+    append_around(const Point<dim>                     &x,
+                  const double                          size,
+                  std::vector<const NearMarker<dim> *> &result) const;
+
+  private:
+    const double                  finest;
+    std::vector<NearMarkers<dim>> of_size; ///< from the finest on, each twice as large
+  };
 } // namespace treacle
 
 #endif

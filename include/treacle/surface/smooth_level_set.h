@@ -16,6 +16,13 @@ namespace treacle
   public:
     SmoothLevelSet(const Mesh<dim> &mesh, const Vector &phi);
 
+    /// At the nodes.
+    const NodeVector<dim> &
+    gradients() const
+    {
+      return gradient;
+    }
+
     std::vector<double>
     values(const std::vector<Point<dim>> &x, Guesses &guesses) const;
 

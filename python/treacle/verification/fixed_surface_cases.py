@@ -43,6 +43,7 @@ TWO_VISCOSITIES = {
     "u, right": (last("Probe 3 velocity x (m/s)"), 2.32207206e-5),
     "v, right": (last("Probe 3 velocity y (m/s)"), 2.61923373e-5),
     "p, right": (last("Probe 3 pressure (Pa)"), -0.0287334587)}
+DRAG = {"force": (last("Solid 1 force z (N)"), -1.12636448 * 6 * math.pi / 4)}  # of a quarter
 ONE_VISCOSITY = {"u": (last(U), 0.012665148),
                  "v": (last("Probe 2 velocity y (m/s)"), -0.017911224)}
 
@@ -86,4 +87,5 @@ CLOSED_CASES = {
     "B7": Case("two_viscosities", 4, 0.05, TWO_VISCOSITIES, in_time=({},)),
     "B7 viscosity 1": Case("two_viscosities", 4, 0.05, ONE_VISCOSITY, {"Material/Viscosity": 1},
                            in_time=({},)),
+    "B8": Case("sphere_drag", 5, 1e-3, DRAG, {"Mesh/Interior level": 2, "Mesh/Air level": 2}, order=None),
 }

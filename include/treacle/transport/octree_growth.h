@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_transport_octree_growth_h
+#define treacle_transport_octree_growth_h
+
+#include <treacle/transport/bands.h>
+#include <treacle/transport/sizing.h>
+
+namespace treacle
+{
+  /// Grows octrees for one surface and time. Refers to the parameters and the sizing; members are
+  /// collective, and throw on all ranks alike what a formula throws on one.
+  template <int dim>
+  class OctreeGrowth
+  {
+  public:
+    /// phi at any points, collectively.
+    using LevelSet = std::function<std::vector<double>(const std::vector<Point<dim>> &)>;
+
+    OctreeGrowth(const MPI_Comm              &comm,
+                 const OctreeParameters<dim> &parameters,
+                 const Sizing<dim>           &sizing,
+                 const double                 time,
+                 const LevelSet              &phi)
+      : comm(comm)
+      , prm(parameters)
+      , sizing(sizing)
+      , time(time)
+      , phi(phi)
+    {}
+
+    /// Refine where @p is_near says, inside the liquid to what is asked for there, and
+    /// everywhere to the air level; every rank has about the same work with it.
+    std::shared_ptr<const Octree<dim>>
+    grow(const typename Octree<dim>::Criterion &is_near) const;
+
+    /// Does any of these leaves, of any level, hold liquid, and is too coarse for what is asked for
+    /// in it?
+    bool
+    is_any_too_coarse(const std::vector<Leaf<dim>> &leaves) const;
+
+  private:
+    std::vector<double>
+    phi_at_centres(const std::vector<Leaf<dim>> &leaves) const;
+
+    /// Is more asked for at its centre? While leaves grow, what is asked for half an edge further,
+    /// and in the middle of its children, counts too: the last leaves of a level are made when
+    /// it was balanced, and are not asked.
+    bool
+    is_too_coarse(const Leaf<dim> &leaf, const bool while_growing) const;
+
+    std::vector<bool>
+    are_too_coarse(const std::vector<Leaf<dim>> &leaves,
+                   const std::vector<double>    &phi_at_centre,
+                   const bool                    while_growing) const;
+
+    /// Those in the liquid, of one level, that anything asks to refine.
+    void
+    refine_liquid(const std::vector<Leaf<dim>> &leaves, std::vector<bool> &refine) const;
+
+    const MPI_Comm               comm;
+    const OctreeParameters<dim> &prm;
+    const Sizing<dim>           &sizing;
+    const double                 time;
+    const LevelSet               phi;
+  };
+} // namespace treacle
+
+#endif

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exchange.h>
+#include <treacle/transport/octree_growth.h>
+
+namespace treacle
+{
+  namespace
+  {
+    /// What leaves cost with phi at their centres, in microseconds of a step: the liquid, and more
+    /// where the surface cuts it, the air little.
+    template <int dim>
+    std::vector<unsigned int>
+    costs(const OctreeParameters<dim>  &prm,
+          const std::vector<Leaf<dim>> &leaves,
+          const std::vector<double>    &phi)
+    {
+      std::vector<unsigned int> result;
+      for (unsigned int i = 0; i < leaves.size(); ++i)
+        result.push_back((phi[i] < 0 ? 14 : 3) + (is_within(prm, leaves[i], phi[i], 0.) ? 10 : 0));
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  std::shared_ptr<const Octree<dim>>
+  OctreeGrowth<dim>::grow(const typename Octree<dim>::Criterion &is_near) const
+  {
+    return std::make_shared<const Octree<dim>>(
+      comm,
+      prm,
+      [&](const std::vector<Leaf<dim>> &leaves) {
+        std::vector<bool> refine = is_near(leaves);
+        // ranks without leaves of this level do not know it
+        const unsigned int level =
+          Utilities::MPI::max(leaves.empty() ? 0u : leaves.front().level, comm);
+        if (level < prm.air_level)
+          return std::vector<bool>(leaves.size(), true);
+        if (level < prm.interior_level || sizing.asks_in_liquid())
+          refine_liquid(leaves, refine);
+        return refine;
+      },
+      [&](const std::vector<Leaf<dim>> &leaves) {
+        return costs<dim>(prm, leaves, phi_at_centres(leaves));
+      });
+  }
+
+  template <int dim>
+  bool
+  OctreeGrowth<dim>::is_any_too_coarse(const std::vector<Leaf<dim>> &leaves) const
+  {
+    const std::vector<bool> coarse = are_too_coarse(leaves, phi_at_centres(leaves), false);
+    const bool              here   = std::find(coarse.begin(), coarse.end(), true) != coarse.end();
+    return Utilities::MPI::max(here ? 1 : 0, comm) > 0;
+  }
+
+  template <int dim>
+  std::vector<double>
+  OctreeGrowth<dim>::phi_at_centres(const std::vector<Leaf<dim>> &leaves) const
+  {
+    std::vector<Point<dim>> x;
+    for (const Leaf<dim> &leaf : leaves)
+      x.push_back(centre<dim>(prm, leaf));
+    return phi(x);
+  }
+
+  template <int dim>
+  bool
+  OctreeGrowth<dim>::is_too_coarse(const Leaf<dim> &leaf, const bool while_growing) const
+  {
+    const double     edge   = prm.size_of(leaf.level);
+    const double     reach  = half_diagonal<dim>(edge) + (while_growing ? 0.5 * edge : 0.);
+    const Point<dim> x      = centre<dim>(prm, leaf);
+    bool             result = sizing.level_in_liquid(x, reach, time) > leaf.level;
+    for (unsigned int child = 0; child < 1u << dim && while_growing && !result; ++child)
+      result = sizing.level_in_liquid(vertex_of_cube<dim>(x, 0.5 * edge, child), 0, time) > leaf.level;
+    return result;
+  }
+
+  template <int dim>
+  std::vector<bool>
+  OctreeGrowth<dim>::are_too_coarse(const std::vector<Leaf<dim>> &leaves,
+                                    const std::vector<double>    &phi_at_centre,
+                                    const bool                    while_growing) const
+  {
+    std::vector<bool> result(leaves.size(), false);
+    std::string       error;
+    keep_error(error, [&] {
+      for (unsigned int i = 0; i < leaves.size(); ++i)
+        result[i] = phi_at_centre[i] < half_diagonal<dim>(prm.size_of(leaves[i].level)) &&
+                    is_too_coarse(leaves[i], while_growing);
+    });
+    throw_first(comm, error);
+    return result;
+  }
+
+  template <int dim>
+  void
+  OctreeGrowth<dim>::refine_liquid(const std::vector<Leaf<dim>> &leaves, std::vector<bool> &refine) const
+  {
+    const std::vector<double> values = phi_at_centres(leaves);
+    if (sizing.asks_in_liquid())
+      {
+        const std::vector<bool> asked = are_too_coarse(leaves, values, true);
+        std::transform(refine.begin(), refine.end(), asked.begin(), refine.begin(), std::logical_or<>());
+      }
+    for (unsigned int i = 0; i < leaves.size(); ++i)
+      refine[i] = refine[i] || (leaves[i].level < prm.interior_level && values[i] < 0);
+  }
+
+  template class OctreeGrowth<2>;
+  template class OctreeGrowth<3>;
+} // namespace treacle

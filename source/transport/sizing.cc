@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exchange.h>
+#include <treacle/fields/gradients.h>
+#include <treacle/transport/sizing.h>
+
+namespace treacle
+{
+  namespace
+  {
+    /// Part of the depth below a surface that the level set shows there at least, if no other
+    /// surface is about: a layer is thin where it is thinner than 1 + this part of the depth.
+    constexpr double least_depth = 0.6;
+
+    template <int dim>
+    std::optional<Expression<dim>>
+    formula(const std::string &size)
+    {
+      if (size.empty())
+        return {};
+      return Expression<dim>(size, "Mesh/Size", true);
+    }
+
+    /// Of the level set at the nodes, of length 1, or 0 in the middle of what is thin.
+    template <int dim>
+    NodeVector<dim>
+    normals(const Mesh<dim> &mesh, const NodeVector<dim> &gradient)
+    {
+      NodeVector<dim> result(mesh.nodes);
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        if (const Tensor<1, dim> g = gradient.value(node); g.norm() > 0.1)
+          result.set(node, g / g.norm());
+      result.update_ghost_values();
+      return result;
+    }
+
+    template <int dim>
+    bool
+    is_cut(const Mesh<dim> &mesh, const Vector &phi, const LocalIndex cell)
+    {
+      const VertexValues<dim> values = mesh.values(cell, phi);
+      const auto [least, most]       = std::minmax_element(values.begin(), values.end());
+      return *least < 0 && *most >= 0;
+    }
+  } // namespace
+
+  template <int dim>
+  Sizing<dim>::Sizing(const OctreeParameters<dim> &parameters, const Scene<dim> &scene)
+    : prm(parameters)
+    , scene(scene)
+    , largest(formula<dim>(parameters.size))
+  {}
+
+  template <int dim>
+  double
+  Sizing<dim>::by_curvature(const Mesh<dim>       &mesh,
+                            const NodeVector<dim> &normal,
+                            const Vector          &phi,
+                            const LocalIndex       node) const
+  {
+    Tensor<2, dim> sum;
+    double         volume = 0;
+    for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+      if (const LocalIndex c = mesh.node_cells[k]; is_cut(mesh, phi, c))
+        {
+          sum += mesh.cell_volume[c] * velocity_gradient(mesh, c, normal);
+          volume += mesh.cell_volume[c];
+        }
+    if (volume == 0)
+      return 0;
+    const auto   principal = eigenvalues(symmetrize(sum / volume));
+    const double curvature = std::max(std::abs(principal.front()), std::abs(principal.back()));
+    const double coarsest  = prm.size_of(prm.coarsest_at_surface());
+    return std::max(prm.finest_size(),
+                    prm.leaves_per_radius * curvature * coarsest > 1 ?
+                      1 / (prm.leaves_per_radius * curvature) :
+                      coarsest);
+  }
+
+  template <int dim>
+  Vector
+  Sizing<dim>::at_surface(const State<dim> &state, const SurfaceGeometry<dim> &surface) const
+  {
+    const Mesh<dim>        &mesh   = *state.mesh;
+    const NodeVector<dim>   normal = normals(mesh, surface.level_set.gradients());
+    Vector                  size   = mesh.zeros(mesh.nodes);
+    std::vector<LocalIndex> nodes;
+    std::string             error;
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      if (double &s = size.local_element(node);
+          (s = by_curvature(mesh, normal, state.phi, node)) > 0)
+        {
+          nodes.push_back(node);
+          if (largest)
+            keep_error(error, [&] {
+              s = std::min(s, (*largest)(mesh.node_position[node], state.time));
+              s = std::max(s, prm.finest_size());
+            });
+        }
+    throw_first(mesh.communicator(), error);
+    if (prm.leaves_across > 0)
+      bound_by_thickness(state, surface, normal, nodes, size);
+    size.update_ghost_values();
+    return size;
+  }
+
+  template <int dim>
+  void
+  Sizing<dim>::bound_by_thickness(const State<dim>              &state,
+                                  const SurfaceGeometry<dim>    &surface,
+                                  const NodeVector<dim>         &normal,
+                                  const std::vector<LocalIndex> &nodes,
+                                  Vector                        &size) const
+  {
+    // a point below the surface and one above it for each level that may be too coarse
+    const Mesh<dim>        &mesh = *state.mesh;
+    std::vector<Point<dim>> points;
+    const auto              depth = [&](const unsigned int level) {
+      return prm.leaves_across * prm.size_of(level) / (1 + least_depth);
+    };
+    for (const LocalIndex node : nodes)
+      for (unsigned int level = prm.coarsest_at_surface(); level < prm.surface_level; ++level)
+        for (const double side : {-1., 1.})
+          points.push_back(mesh.node_position[node] +
+                           (side * depth(level) - state.phi.local_element(node)) * normal.value(node));
+    const std::vector<Point<dim>> inside = mesh.locator().clamped(points);
+    Guesses                       none;
+    const std::vector<double>     phi     = surface.level_set.values(inside, none);
+    const auto                    is_near = [&](const unsigned int k, const double phi, const double s) {
+      const double deep = (1 - least_depth) * s; // beyond a wall
+      return scene.solid_distance(points[k], state.time) < -deep ||
+             points[k].distance(inside[k]) > deep || phi < least_depth * s;
+    };
+    std::string error;
+    keep_error(error, [&] {
+      for (unsigned int i = 0, k = 0; i < nodes.size(); ++i)
+        for (unsigned int level = prm.coarsest_at_surface(); level < prm.surface_level; ++level, k += 2)
+          if (is_near(k, -phi[k], depth(level)) || is_near(k + 1, phi[k + 1], depth(level)))
+            size.local_element(nodes[i]) =
+              std::min(size.local_element(nodes[i]), prm.size_of(level + 1));
+    });
+    throw_first(mesh.communicator(), error);
+  }
+
+  template <int dim>
+  unsigned int
+  Sizing<dim>::level_in_liquid(const Point<dim> &x, const double distance, const double time) const
+  {
+    unsigned int level = std::max(prm.interior_level, scene.level_near(x, distance, time));
+    if (largest)
+      level = std::max(level, prm.level_of((*largest)(x, time)));
+    return std::min(level, prm.surface_level);
+  }
+
+  template <int dim>
+  bool
+  Sizing<dim>::asks_in_liquid() const
+  {
+    return largest || scene.asks_for_levels();
+  }
+
+  template class Sizing<2>;
+  template class Sizing<3>;
+} // namespace treacle

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+// The surface passes from leaves to others a quarter or an eighth as large, in every direction: liquid at rest stays
+// at rest, a body that turns freely keeps its angular momentum and shape, and leaves are as large as
+// curvature, thickness, formula, walls and solids allow.
+
+#include "../run_scene.h"
+#include "../tests.h"
+
+#include <treacle/transport/remesh.h>
+
+namespace tests::scenes_graded_surface
+{
+namespace
+{
+  /// Finest around a point of the surface, coarse around that.
+  template <int dim>
+  std::string
+  graded(const std::string &x, const unsigned int coarsest, const unsigned int finest)
+  {
+    return "subsection Mesh\nset Surface level = " + std::to_string(finest) +
+           "\nset Coarsest surface level = " + std::to_string(coarsest) +
+           "\nset Leaves across = 0\nset Leaves per radius = 0\n"
+           "set Interior level = 2\nset Air level = 2\nset Size = if(sqrt(" + x +
+           ") < 0.15, 0.01, 1)\nend\n";
+  }
+
+  template <int dim>
+  void
+  rest(const MPI_Comm &comm)
+  {
+    const std::string y    = dim == 2 ? "y" : "z";
+    const auto        rows = run_scene<dim>(
+      comm,
+      "set End time = 0.3\nset Frame interval = 0.1\nset Maximum time step = 0.1\n"
+      "subsection Domain\nset Wall condition = free slip\nend\n" +
+        graded<dim>("(x - 0.5)^2 + (" + y + " - 0.4)^2", dim == 2 ? 3 : 2, dim == 2 ? 6 : 4) + tolerance("1e-13") +
+        "subsection Material\nset Density = 1\nset Viscosity = 0.1\nend\n"
+        "subsection Liquid 1\nset Shape = expression\nset Expression = " + y + " - 0.4\nend\n");
+    double fastest = 0;
+    for (const Row &row : rows)
+      fastest = std::max(fastest, row.at("Maximum speed (m/s)"));
+    out() << dim << "D: at rest " << (fastest < 1e-8 * std::sqrt(9.81 * 0.4) ? "yes" : "no") << ", meshes "
+          << rows.back().at("Rebuilds") << std::endl;
+  }
+
+  /// An eighth of a turn, past the fine leaves.
+  template <int dim>
+  void
+  turn(const MPI_Comm &comm)
+  {
+    const std::string z       = dim == 2 ? "" : "; 0";
+    const auto        text = [&](const std::string &mesh) {
+      return "set End time = 0.8\nset Frame interval = 0.4\nset Maximum time step = 0.1\n" + mesh +
+             "subsection Gravity\nset Acceleration = 0; 0" + z +
+             "\nend\nsubsection Material\nset Density = 1\nset Viscosity = 10\nend\n"
+             "subsection Liquid 1\nset Shape = box\nset Lower corner = 0.3, 0.35" + (dim == 2 ? "" : ", 0.4") +
+             "\nset Upper corner = 0.7, 0.65" + (dim == 2 ? "" : ", 0.6") +
+             "\nset Velocity = 0.5 - y; x - 0.5" + z + "\nend\n";
+    };
+    const auto        rows = run_scene<dim>(comm, text(graded<dim>("(x - 0.7)^2 + (y - 0.5)^2", dim == 2 ? 4 : 3, dim == 2 ? 6 : 4)));
+    const std::string l = std::string("Angular momentum ") + (dim == 2 ? "(kg m^2/s)" : "z (kg m^2/s)");
+    out() << std::setprecision(2) << dim << "D: turns, angular momentum "
+          << rows.back().at(l) / rows.front().at(l) - 1 << ", kinetic energy "
+          << rows.back().at("Kinetic energy (J)") / rows.front().at("Kinetic energy (J)") - 1 << ", width "
+          << rows.back().at("Liquid maximum x (m)") - rows.back().at("Liquid minimum x (m)")
+          << std::setprecision(6) << ", cells " << rows.front().at("Cells") << std::endl;
+  }
+
+  /// Of a mesh at t = 0: leaves of each level that hold liquid or surround it.
+  template <int dim>
+  void
+  levels(const MPI_Comm &comm, const std::string &name, const std::string &text, const unsigned int n_solids)
+  {
+    const auto       prm = parse<dim>(text, n_solids);
+    const Scene<dim> scene(prm.scene, comm);
+    auto             mesh_prm = prm.mesh;
+    mesh_prm.lower_corner     = scene.lower_corner();
+    mesh_prm.upper_corner     = scene.upper_corner();
+    const auto                       mesh   = initial_mesh<dim>(comm, mesh_prm, scene);
+    const Octree<dim>               &octree = mesh->octree();
+    std::vector<unsigned int>        count(prm.mesh.surface_level + 1);
+    for (unsigned int l = 0; l < octree.n_owned_leaves(); ++l)
+      ++count[octree.leaves()[l].level];
+    Utilities::MPI::sum(count, comm, count);
+    out() << dim << "D, " << name << ": leaves by level";
+    for (const unsigned int n : count)
+      out() << ' ' << n;
+    out() << std::endl;
+  }
+
+  template <int dim>
+  void
+  sizes(const MPI_Comm &comm)
+  {
+    const std::string mesh = "subsection Mesh\nset Surface level = " + std::string(dim == 2 ? "6" : "5") + "\nset Coarsest surface level = 3\n"
+                             "set Interior level = 2\nset Air level = 2\n";
+    const std::string y = dim == 2 ? "y" : "z", all = dim == 2 ? "" : ", 0.5";
+    const auto        box = [&](const std::string &half) {
+      return "subsection Liquid 1\nset Shape = box\nset Lower corner = -1, " + std::string(dim == 2 ? "" : "-1, ") +
+             std::to_string(0.5 - std::stod(half)) + "\nset Upper corner = 2, " + (dim == 2 ? "" : "2, ") +
+             std::to_string(0.5 + std::stod(half)) + "\nend\n";
+    };
+    levels<dim>(comm, "thick layer", mesh + "end\n" + box("0.3"), 0);
+    levels<dim>(comm, "thin layer", mesh + "end\n" + box("0.06"), 0);
+    levels<dim>(comm,
+                "drop",
+                mesh + "end\nsubsection Liquid 1\nset Centre = 0.5, 0.5" + all + "\nset Radius = 0.1\nend\n",
+                0);
+    levels<dim>(comm,
+                "large and small drop",
+                mesh + "end\nsubsection Liquid 1\nset Shape = expression\nset Expression = min(sqrt((x - 0.4)^2 + (" + y +
+                  " - 0.4)^2) - 0.3, sqrt((x - 0.82)^2 + (" + y + " - 0.82)^2) - 0.03)\nend\n",
+                0);
+    const std::string full = "subsection Liquid 1\nset Shape = expression\nset Expression = -1\nend\n";
+    levels<dim>(comm,
+                "solid and walls",
+                mesh + "end\nsubsection Domain\nset Wall condition = default: free slip; left: no slip\n"
+                       "set Wall level = 4\nend\nsubsection Solid 1\nset Centre = 0.6, 0.5" + all +
+                  "\nset Radius = 0.1\nset Level = 5\nend\n" + full,
+                1);
+    levels<dim>(comm, "formula", mesh + "set Size = 0.05 + 0.4*x\nend\n" + full, 0);
+  }
+} // namespace
+
+void
+start(const int, char **)
+{
+  on_1_2_3_ranks([](const MPI_Comm &comm) {
+    out() << std::setprecision(3);
+    rest<2>(comm);
+    rest<3>(comm);
+    turn<2>(comm);
+    turn<3>(comm);
+    sizes<2>(comm);
+    sizes<3>(comm);
+  });
+}
+
+const Test test("scenes/graded_surface", start);
+} // namespace tests::scenes_graded_surface
