@@ -9,7 +9,7 @@
 #include <treacle/base/timing.h>
 #include <treacle/simulator.h>
 #include <treacle/surface/redistance.h>
-#include <treacle/transport/remesh.h>
+#include <treacle/transport/initial_mesh.h>
 
 #include <cstdio>
 

@@ -5,7 +5,7 @@
 
     scripts/render.py results/coiling
     scripts/render.py results/coiling --frames 0:100:10 --view 40,25,1.5 --colour speed
-    scripts/render.py results/coiling --frames -1 --mesh
+    scripts/render.py results/coiling --frames -1 --mesh --colour level
 """
 
 import argparse
@@ -36,7 +36,8 @@ def parse_arguments():
                         help="what the 3D camera takes in")
     parser.add_argument("--size", default="960x720", metavar="WxH",
                         type=lambda s: numbers(s, "x", 2, int))
-    parser.add_argument("--colour", choices=["honey", "speed"], default="honey")
+    parser.add_argument("--colour", choices=["honey", "speed", "level"], default="honey",
+                        help="level: of the cells, with --mesh")
     parser.add_argument("--mesh", action="store_true",
                         help="draw the cells, in 3D those behind a plane; files are mesh_*.png")
     parser.add_argument("--fps", type=float, help="pictures a second in the film "
@@ -59,6 +60,8 @@ def readable(run, frames):
 def main():
     arguments = parse_arguments()
     from treacle import DataError, Run
+    if arguments.colour == "level" and not arguments.mesh:
+        raise DataError("--colour level is of cells: add --mesh")
     from treacle.render.display import restart_with_display
     from treacle.render.pictures import Options, draw, film, real_time, select
     run = Run(arguments.directory)

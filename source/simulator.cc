@@ -6,7 +6,7 @@
 #include <treacle/simulator.h>
 #include <treacle/surface/material_extension.h>
 #include <treacle/surface/redistance.h>
-#include <treacle/transport/remesh.h>
+#include <treacle/transport/initial_mesh.h>
 
 #include <cstdio>
 #include <ostream>

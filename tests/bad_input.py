@@ -29,6 +29,8 @@ CASES = [
     ("open triangle mesh", {"Dimension": "3", "Liquid 1/Shape": "triangle mesh",
                             "Liquid 1/File": "open.off"}, r"open\.off.*closed"),
     ("box that cubes cannot tile", {"Domain/Upper corner": "1, 1.3"}, r"cubes cannot tile.*Root cells"),
+    ("size that is not a number", {"Mesh/Size": "sqrt(x - 2)"}, r"Mesh/Size is -?nan at x = "),
+    ("few cells of one size", {"Mesh/Maximum cells": "1000"}, r"Maximum cells needs a Mesh/Coarsest surface level"),
     ("liquid outside the box", {"Liquid 1/Centre": "3, 3"}, r"Liquid 1 lies outside the box"),
     ("liquid inside a solid", {"Solid 1/Shape": "sphere", "Solid 1/Radius": "0.4"},
      r"Liquid 1 lies inside a solid"),

@@ -9,7 +9,7 @@
 
 #include <treacle/dynamics/measures.h>
 #include <treacle/surface/redistance.h>
-#include <treacle/transport/remesh.h>
+#include <treacle/transport/initial_mesh.h>
 
 namespace tests
 {

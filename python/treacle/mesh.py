@@ -4,6 +4,7 @@
 
 from pathlib import Path
 
+import numpy
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
@@ -22,6 +23,14 @@ class Mesh:
     def __init__(self, points, cells, point_data, cell_data):
         self.points, self.cells = points, cells
         self.point_data, self.cell_data = point_data, cell_data
+
+    def leaf_edges(self):
+        """Edge (m) of the leaf on which a cell of the lattice has a volume like each cell's, (m,)."""
+        corners = self.points[self.cells]
+        dim = corners.shape[1] - 1
+        edges = (corners[:, 1:] - corners[:, :1])[:, :, :dim]
+        volume = abs(numpy.linalg.det(edges)) / (2 if dim == 2 else 6)
+        return (4 * volume)**0.5 if dim == 2 else (12 * volume)**(1 / 3)
 
 
 def read_mesh(path):

@@ -102,6 +102,11 @@ namespace treacle
                       "Largest edge (m) of leaves in the liquid and along the surface, down to those of "
                       "the Surface level; a formula in " +
                         std::string(dim == 2 ? "x,y,t" : "x,y,z,t") + ". Empty: any.");
+    prm.add_parameter("Maximum cells",
+                      maximum_cells,
+                      "Where the surface asks for more cells, about, it gets larger leaves than it asks for, "
+                      "everywhere in proportion, down to the Coarsest surface level; 0: any number.",
+                      Patterns::Integer(0));
   }
 
   template <int dim>
@@ -116,6 +121,9 @@ namespace treacle
     require(interior_level <= surface_level && air_level <= surface_level,
             "Mesh/Interior level and Mesh/Air level must not be larger than Mesh/Surface "
             "level.");
+    require(maximum_cells == 0 || coarsest_surface_level < surface_level,
+            "Mesh/Maximum cells needs a Mesh/Coarsest surface level below Mesh/Surface level: all of the "
+            "surface has leaves of one size.");
     if (!size.empty())
       Expression<dim>(size, "Mesh/Size", true);
   }

@@ -48,6 +48,28 @@ namespace treacle
 
   template <int dim>
   bool
+  OctreeGrowth<dim>::is_full(const Octree<dim> &octree) const
+  {
+    return prm.maximum_cells > 0 && prm.n_cells(n_leaves(octree)) > prm.maximum_cells;
+  }
+
+  template <int dim>
+  std::shared_ptr<const Octree<dim>>
+  OctreeGrowth<dim>::grow_around(const Octree<dim> &octree, const PointsByFactor &points) const
+  {
+    constexpr double coarser = 1.25;
+    const double     largest = prm.size_of(prm.coarsest_at_surface()) / prm.finest_size();
+    for (double factor = 1;; factor *= coarser)
+      {
+        const Bands<dim> bands(octree, scene, time, points(factor), false);
+        const auto result = grow([&](const std::vector<Leaf<dim>> &leaves) { return bands.touch(leaves); });
+        if (factor > largest || !is_full(*result))
+          return result;
+      }
+  }
+
+  template <int dim>
+  bool
   OctreeGrowth<dim>::is_any_too_coarse(const std::vector<Leaf<dim>> &leaves) const
   {
     const std::vector<bool> coarse = are_too_coarse(leaves, phi_at_centres(leaves), false);

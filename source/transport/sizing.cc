@@ -3,6 +3,7 @@
 
 #include <treacle/base/exchange.h>
 #include <treacle/fields/gradients.h>
+#include <treacle/mesh/surface_size.h>
 #include <treacle/transport/sizing.h>
 
 namespace treacle
@@ -12,6 +13,9 @@ namespace treacle
     /// Part of the depth below a surface that the level set shows there at least, if no other
     /// surface is about: a layer is thin where it is thinner than 1 + this part of the depth.
     constexpr double least_depth = 0.6;
+
+    /// Of what the surface asks for, what leaves may be that are larger than they were.
+    constexpr double too_small = 0.75;
 
     template <int dim>
     std::optional<Expression<dim>>
@@ -43,6 +47,52 @@ namespace treacle
       const auto [least, most]       = std::minmax_element(values.begin(), values.end());
       return *least < 0 && *most >= 0;
     }
+
+    /// The larger principal curvature (1/m) at the nodes of cut cells, -1 at others: of the gradient of
+    /// the normals, mean over the cut cells around a node and then over the nodes of these, for on
+    /// graded cells one mean is rough. Collective.
+    template <int dim>
+    Vector
+    largest_curvature(const Mesh<dim> &mesh, const NodeVector<dim> &normal, const Vector &phi)
+    {
+      std::vector<NodeVector<dim>> row;
+      row.reserve(dim); // a vector of them that grows would lose their ghosts
+      for (unsigned int d = 0; d < dim; ++d)
+        row.emplace_back(mesh.nodes);
+      const auto mean = [&](const LocalIndex node, const auto &of_cell) {
+        Tensor<2, dim> sum;
+        double         volume = 0;
+        for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+          if (const LocalIndex c = mesh.node_cells[k]; is_cut(mesh, phi, c))
+            {
+              sum += mesh.cell_volume[c] * of_cell(c);
+              volume += mesh.cell_volume[c];
+            }
+        return volume > 0 ? std::optional<Tensor<2, dim>>(sum / volume) : std::nullopt;
+      };
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        if (const auto gradient =
+              mean(node, [&](const LocalIndex c) { return velocity_gradient(mesh, c, normal); }))
+          for (unsigned int d = 0; d < dim; ++d)
+            row[d].set(node, (*gradient)[d]);
+      for (NodeVector<dim> &r : row)
+        r.update_ghost_values();
+      Vector result = mesh.zeros(mesh.nodes);
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        {
+          const auto smoothed = mean(node, [&](const LocalIndex c) {
+            Tensor<2, dim> sum;
+            for (const LocalIndex other : mesh.cell_nodes[c])
+              for (unsigned int d = 0; d < dim; ++d)
+                sum[d] += row[d].value(other) / (dim + 1);
+            return sum;
+          });
+          const auto principal = smoothed ? eigenvalues(symmetrize(*smoothed)) : std::array<double, dim>{{-1}};
+          result.local_element(node) =
+            smoothed ? std::max(std::abs(principal.front()), std::abs(principal.back())) : -1;
+        }
+      return result;
+    }
   } // namespace
 
   template <int dim>
@@ -53,29 +103,17 @@ namespace treacle
   {}
 
   template <int dim>
-  double
-  Sizing<dim>::by_curvature(const Mesh<dim>       &mesh,
-                            const NodeVector<dim> &normal,
-                            const Vector          &phi,
-                            const LocalIndex       node) const
+  Vector
+  Sizing<dim>::by_curvature(const Mesh<dim> &mesh, const NodeVector<dim> &normal, const Vector &phi) const
   {
-    Tensor<2, dim> sum;
-    double         volume = 0;
-    for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
-      if (const LocalIndex c = mesh.node_cells[k]; is_cut(mesh, phi, c))
-        {
-          sum += mesh.cell_volume[c] * velocity_gradient(mesh, c, normal);
-          volume += mesh.cell_volume[c];
-        }
-    if (volume == 0)
-      return 0;
-    const auto   principal = eigenvalues(symmetrize(sum / volume));
-    const double curvature = std::max(std::abs(principal.front()), std::abs(principal.back()));
+    const Vector curvature = largest_curvature(mesh, normal, phi);
     const double coarsest  = prm.size_of(prm.coarsest_at_surface());
-    return std::max(prm.finest_size(),
-                    prm.leaves_per_radius * curvature * coarsest > 1 ?
-                      1 / (prm.leaves_per_radius * curvature) :
-                      coarsest);
+    Vector       size      = mesh.zeros(mesh.nodes);
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      if (const double k = curvature.local_element(node); k >= 0)
+        size.local_element(node) =
+          std::max(prm.finest_size(), coarsest / std::max(1., prm.leaves_per_radius * k * coarsest));
+    return size;
   }
 
   template <int dim>
@@ -84,17 +122,16 @@ namespace treacle
   {
     const Mesh<dim>        &mesh   = *state.mesh;
     const NodeVector<dim>   normal = normals(mesh, surface.level_set.gradients());
-    Vector                  size   = mesh.zeros(mesh.nodes);
+    Vector                  size   = by_curvature(mesh, normal, state.phi);
     std::vector<LocalIndex> nodes;
     std::string             error;
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      if (double &s = size.local_element(node);
-          (s = by_curvature(mesh, normal, state.phi, node)) > 0)
+      if (double &s = size.local_element(node); s > 0)
         {
           nodes.push_back(node);
           if (largest)
             keep_error(error, [&] {
-              s = std::min(s, (*largest)(mesh.node_position[node], state.time));
+              s = std::min(s, size_by_formula(mesh.node_position[node], state.time));
               s = std::max(s, prm.finest_size());
             });
         }
@@ -144,12 +181,22 @@ namespace treacle
   }
 
   template <int dim>
+  double
+  Sizing<dim>::size_by_formula(const Point<dim> &x, const double time) const
+  {
+    const double size = (*largest)(x, time);
+    if (!(size >= 0))
+      value_error("Mesh/Size", size, "positive", x, time);
+    return size;
+  }
+
+  template <int dim>
   unsigned int
   Sizing<dim>::level_in_liquid(const Point<dim> &x, const double distance, const double time) const
   {
     unsigned int level = std::max(prm.interior_level, scene.level_near(x, distance, time));
     if (largest)
-      level = std::max(level, prm.level_of((*largest)(x, time)));
+      level = std::max(level, prm.level_of(size_by_formula(x, time)));
     return std::min(level, prm.surface_level);
   }
 
@@ -160,6 +207,44 @@ namespace treacle
     return largest || scene.asks_for_levels();
   }
 
-  template class Sizing<2>;
-  template class Sizing<3>;
+  template <int dim>
+  std::vector<unsigned int>
+  vertex_levels(const OctreeParameters<dim> &prm,
+                const Surface<dim>          &surface,
+                const Vector                &size,
+                const double                 factor)
+  {
+    std::vector<unsigned int> levels;
+    for (const auto &vertex : surface.vertices)
+      levels.push_back(std::max(prm.coarsest_at_surface(),
+                                prm.level_of(factor * std::min(size.local_element(vertex.a),
+                                                               size.local_element(vertex.b)))));
+    return levels;
+  }
+
+  template <int dim>
+  bool
+  is_too_fine(const Mesh<dim> &mesh, const Vector &size)
+  {
+    const OctreeParameters<dim> &prm = mesh.octree().parameters();
+    Tensor<1, 2> count; // of nodes at the surface, and of those that it asks for
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      if (const double s = size.local_element(node); s > 0)
+        {
+          const double asked = prm.size_of(prm.level_of(too_small * s));
+          count[0] += 1;
+          count[1] += std::pow(std::min(1., surface_size_at_node(mesh, node) / asked), dim - 1);
+        }
+    count = Utilities::MPI::sum(count, mesh.communicator());
+    return count[1] < 0.5 * count[0];
+  }
+
+#define INSTANTIATE(dim)                                                                   \
+  template class Sizing<dim>;                                                              \
+  template std::vector<unsigned int> vertex_levels(                                        \
+    const OctreeParameters<dim> &, const Surface<dim> &, const Vector &, const double);    \
+  template bool is_too_fine(const Mesh<dim> &, const Vector &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace treacle

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/exchange.h>
 #include <treacle/fields/liquid_volume.h>
 #include <treacle/surface/emission.h>
 #include <treacle/surface/extrapolation.h>

@@ -8,7 +8,7 @@
 #include "../run_scene.h"
 #include "../tests.h"
 
-#include <treacle/transport/remesh.h>
+#include <treacle/transport/initial_mesh.h>
 
 namespace tests::scenes_graded_surface
 {
@@ -107,6 +107,11 @@ namespace
     levels<dim>(comm,
                 "drop",
                 mesh + "end\nsubsection Liquid 1\nset Centre = 0.5, 0.5" + all + "\nset Radius = 0.1\nend\n",
+                0);
+    levels<dim>(comm,
+                "drop in few cells",
+                mesh + "set Maximum cells = " + (dim == 2 ? "1200" : "15000") +
+                  "\nend\nsubsection Liquid 1\nset Centre = 0.5, 0.5" + all + "\nset Radius = 0.1\nend\n",
                 0);
     levels<dim>(comm,
                 "large and small drop",

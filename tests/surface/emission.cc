@@ -13,6 +13,7 @@
 
 #include <treacle/surface/material_extension.h>
 #include <treacle/transport/advection.h>
+#include <treacle/transport/initial_mesh.h>
 #include <treacle/transport/remesh.h>
 
 namespace tests::surface_emission

@@ -12,6 +12,7 @@
 #include <treacle/fields/liquid_volume.h>
 #include <treacle/surface/surface.h>
 #include <treacle/transport/advection.h>
+#include <treacle/transport/initial_mesh.h>
 #include <treacle/transport/remesh.h>
 
 namespace tests::surface_markers

@@ -32,6 +32,7 @@ namespace treacle
     double      leaves_per_radius = 4; ///< of curvature
     double      leaves_across     = 4; ///< liquid and gaps
     std::string size;                  ///< of leaves (m), a formula; empty: any
+    unsigned int maximum_cells = 0;    ///< about; 0: any number
 
     /// Throws a UserError where no octree fits.
     void
@@ -53,6 +54,13 @@ namespace treacle
     size_of(const unsigned int level) const
     {
       return std::ldexp(finest_size(), static_cast<int>(surface_level) - static_cast<int>(level));
+    }
+
+    /// The cells that stand on so many leaves, about.
+    static double
+    n_cells(const double n_leaves)
+    {
+      return (dim == 2 ? 4 : 12) * n_leaves;
     }
 
     /// The smallest level whose leaves are no larger than @p size (m), up to the surface level.

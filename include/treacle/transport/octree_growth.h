@@ -9,7 +9,7 @@
 
 namespace treacle
 {
-  /// Grows octrees for one surface and time. Refers to the parameters and the sizing; members are
+  /// Grows octrees for one surface and time. Refers to parameters, sizing and scene; members are
   /// collective, and throw on all ranks alike what a formula throws on one.
   template <int dim>
   class OctreeGrowth
@@ -21,11 +21,13 @@ namespace treacle
     OctreeGrowth(const MPI_Comm              &comm,
                  const OctreeParameters<dim> &parameters,
                  const Sizing<dim>           &sizing,
+                 const Scene<dim>            &scene,
                  const double                 time,
                  const LevelSet              &phi)
       : comm(comm)
       , prm(parameters)
       , sizing(sizing)
+      , scene(scene)
       , time(time)
       , phi(phi)
     {}
@@ -34,6 +36,18 @@ namespace treacle
     /// everywhere to the air level; every rank has about the same work with it.
     std::shared_ptr<const Octree<dim>>
     grow(const typename Octree<dim>::Criterion &is_near) const;
+
+    /// The points that ask for leaves, which may be larger by a factor than what asks for them.
+    using PointsByFactor = std::function<BandPoints<dim>(const double)>;
+
+    /// One with bands around points, whose cubes are those of @p octree: with the smallest factor for
+    /// which it is not full.
+    std::shared_ptr<const Octree<dim>>
+    grow_around(const Octree<dim> &octree, const PointsByFactor &points) const;
+
+    /// Has it more than Maximum cells?
+    bool
+    is_full(const Octree<dim> &octree) const;
 
     /// Does any of these leaves, of any level, hold liquid, and is too coarse for what is asked for
     /// in it?
@@ -62,9 +76,18 @@ namespace treacle
     const MPI_Comm               comm;
     const OctreeParameters<dim> &prm;
     const Sizing<dim>           &sizing;
+    const Scene<dim>            &scene;
     const double                 time;
     const LevelSet               phi;
   };
+
+  /// Leaves on all ranks. Collective.
+  template <int dim>
+  double
+  n_leaves(const Octree<dim> &octree)
+  {
+    return Utilities::MPI::sum(1. * octree.n_owned_leaves(), octree.communicator());
+  }
 } // namespace treacle
 
 #endif

@@ -10,13 +10,6 @@
 
 namespace treacle
 {
-  /// A mesh for the liquids of the scene at t = 0. Collective.
-  template <int dim>
-  std::shared_ptr<const Mesh<dim>>
-  initial_mesh(const MPI_Comm                         &comm,
-               const typename Octree<dim>::Parameters &parameters,
-               const Scene<dim>                       &scene);
-
   /// The mesh for the surface after dt: the old one while the surface stays well
   /// inside its finest leaves, else a new one around it; from a file always the old one.
   /// @p next is where the surface's vertices and @p markers those after dt. Emitters that have not stopped are surrounded by

@@ -43,12 +43,13 @@ namespace treacle
     asks_in_liquid() const;
 
   private:
-    /// By curvature and formula.
+    /// Mesh/Size. Throws a UserError where it is negative or no number.
     double
-    by_curvature(const Mesh<dim>       &mesh,
-                 const NodeVector<dim> &normal,
-                 const Vector          &phi,
-                 const LocalIndex       node) const;
+    size_by_formula(const Point<dim> &x, const double time) const;
+
+    /// What curvature allows, as at_surface(). Collective.
+    Vector
+    by_curvature(const Mesh<dim> &mesh, const NodeVector<dim> &normal, const Vector &phi) const;
 
     /// Lower the sizes at @p nodes to what thickness asks for there. Collective.
     void
@@ -62,6 +63,20 @@ namespace treacle
     const Scene<dim>                    &scene;
     const std::optional<Expression<dim>> largest; ///< Mesh/Size (m)
   };
+
+  /// The level that each vertex of a surface asks for, with leaves that may be larger by a factor
+  /// than the sizes (m) at nodes.
+  template <int dim>
+  std::vector<unsigned int>
+  vertex_levels(const OctreeParameters<dim> &prm,
+                const Surface<dim>          &surface,
+                const Vector                &size,
+                const double                 factor);
+
+  /// Would half of the cells along a surface do that has sizes? Collective.
+  template <int dim>
+  bool
+  is_too_fine(const Mesh<dim> &mesh, const Vector &size);
 } // namespace treacle
 
 #endif

@@ -6,6 +6,8 @@ import shutil
 import subprocess
 from dataclasses import dataclass
 
+import numpy
+
 from treacle.errors import DataError
 
 
@@ -15,7 +17,7 @@ class Options:
     view: tuple = (25, 16, 1)   # in 3D: azimuth (0 looks along +y), elevation in degrees, zoom
     size: tuple = (960, 720)    # in pixels
     focus: str = "box"          # what the 3D camera takes in: box or liquid
-    colour: str = "honey"       # or speed
+    colour: str = "honey"       # or speed, or with mesh level
     mesh: bool = False          # cells, in 3D those behind a plane, and not the liquid
 
 
@@ -36,6 +38,19 @@ def select(frames, text):
     if not chosen:
         raise DataError(f"there are no frames '{text}'; the run has {frames[0]} to {frames[-1]}")
     return chosen
+
+
+def mesh_colours(run, frames, options):
+    """What cells are coloured by: their values as a function of a Mesh, the limits of these, and their
+    name. Level 0 are the largest leaves of all."""
+    if options.colour != "level":
+        limit = 0.1 * (run.upper - run.lower).min()
+        return (lambda mesh: mesh.point_data["phi"][mesh.cells].mean(axis=1)), (-limit, limit), "level set (m)"
+    sizes = [run.mesh(k).leaf_edges() for k in frames]
+    largest = max(size.max() for size in sizes)
+    finest = round(numpy.log2(largest / min(size.min() for size in sizes)))
+    return ((lambda mesh: numpy.round(numpy.log2(largest / mesh.leaf_edges()))), (0, max(1, finest)),
+            "level")
 
 
 def draw(run, frames, options):

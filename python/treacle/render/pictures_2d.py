@@ -11,6 +11,7 @@ from matplotlib.path import Path
 
 from treacle.outline import liquid_loops
 from treacle.render.cells import walls, weld, wet_polygons
+from treacle.render.pictures import mesh_colours
 
 LIQUID, EDGE, SOLID, FRAME = "#f0b43c", "#8a5200", "#9aa0a6", "#3c4043"
 LEVEL_SET = LinearSegmentedColormap.from_list(
@@ -52,6 +53,8 @@ class Pictures2D:
     def __init__(self, run, frames, options):
         self.run, self.options = run, options
         self.fastest = 0.0
+        if options.mesh:
+            self.cell_colours = mesh_colours(run, frames, options)
         if options.colour == "speed":
             self.fastest = max((run.surface(k).speed.max(initial=0) for k in frames), default=0)
 
@@ -95,10 +98,10 @@ class Pictures2D:
 
     def _mesh(self, figure, axes, frame):
         mesh = self.run.mesh(frame)
-        points, cells, phi = mesh.points, mesh.cells, mesh.point_data["phi"]
-        limit = 0.1 * (self.run.upper - self.run.lower).min()
-        polygons = PolyCollection(points[cells][:, :, :2], array=phi[cells].mean(axis=1),
-                                  cmap=LEVEL_SET, clim=(-limit, limit),
-                                  edgecolors="#20252b", linewidths=min(0.5, 40 / len(cells)**0.5))
+        values, limits, name = self.cell_colours
+        level = self.options.colour == "level"
+        polygons = PolyCollection(mesh.points[mesh.cells][:, :, :2], array=values(mesh),
+                                  cmap="viridis" if level else LEVEL_SET, clim=limits,
+                                  edgecolors="#20252b", linewidths=min(0.5, 40 / len(mesh.cells)**0.5))
         axes.add_collection(polygons)
-        figure.colorbar(polygons, ax=axes, label="level set (m)", shrink=0.8, extend="both")
+        figure.colorbar(polygons, ax=axes, label=name, shrink=0.8, extend="neither" if level else "both")

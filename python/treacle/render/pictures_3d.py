@@ -9,6 +9,7 @@ from vtk.util.numpy_support import vtk_to_numpy
 from treacle.outline import merge, wall_caps
 from treacle.render.bodies import body
 from treacle.render.cells import boundary_faces
+from treacle.render.pictures import mesh_colours
 from treacle.render.poly_data import (add_point_data, colour_table, poly_data, polygons,
                                       with_smooth_normals)
 from treacle.render.studio import SAMPLES, SOLID, Studio
@@ -27,9 +28,9 @@ class Pictures3D:
         self.studio = Studio(run.lower, run.upper, options.view, options.size)
         self.actors, self.colours = [], None
         if options.mesh:
-            limit = 0.1 * (run.upper - run.lower).min()
-            self.colours = colour_table(LEVEL_SET, -limit, limit)
-            self.studio.colour_bar(self.colours, "level set (m)")
+            self.values, limits, name = mesh_colours(run, frames, options)
+            self.colours = colour_table(VIRIDIS if options.colour == "level" else LEVEL_SET, *limits)
+            self.studio.colour_bar(self.colours, name)
         elif options.colour == "speed":
             fastest = max(run.surface(k).speed.max(initial=0) for k in frames)
             self.colours = colour_table(VIRIDIS, 0, fastest or 1)
@@ -95,9 +96,9 @@ class Pictures3D:
     def _mesh(self, frame):
         """The cells behind the plane through the middle of the box that faces the camera."""
         mesh = self.run.mesh(frame)
-        cells = mesh.cells[self.is_behind(mesh)]
-        phi = mesh.point_data["phi"][cells].mean(axis=1)
-        actor = self.add_cells(mesh.points, cells, (0.13, 0.15, 0.17), 0.7, phi)
+        behind = self.is_behind(mesh)
+        actor = self.add_cells(mesh.points, mesh.cells[behind], (0.13, 0.15, 0.17), 0.7,
+                               self.values(mesh)[behind])
         mapper, material = actor.GetMapper(), actor.GetProperty()
         mapper.SetScalarModeToUsePointFieldData()
         mapper.SelectColorArray("value")

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/fields/initial_state.h>
+#include <treacle/mesh/lattice_mesh.h>
+#include <treacle/surface/redistance.h>
+#include <treacle/transport/initial_mesh.h>
+#include <treacle/transport/octree_growth.h>
+#include <treacle/transport/time_step.h>
+
+namespace treacle
+{
+  namespace
+  {
+    /// The surface of the liquids at t = 0 on the lattice of an octree: no mesh is needed for that.
+    template <int dim>
+    std::vector<BandPoint<dim>>
+    initial_surface(const std::shared_ptr<const Octree<dim>> &octree, const Scene<dim> &scene)
+    {
+      const MeshCells<dim> mesh = LatticeMesh<dim>(octree).take_cells();
+      const unsigned int   rank = Utilities::MPI::this_mpi_process(octree->communicator());
+      std::vector<double>  phi;
+      for (const auto &vertex : mesh.vertices)
+        phi.push_back(scene.liquid_distance(vertex.position));
+      std::vector<BandPoint<dim>> points;
+      for (const auto &cell : mesh.cells)
+        {
+          VertexValues<dim> values;
+          for (unsigned int v = 0; v <= dim; ++v)
+            values[v] = phi[cell.vertex[v]];
+          const Facets<dim> facets = surface_facets<dim>(values);
+          for (unsigned int k = 0; k < facets.n && cell.owner == rank; ++k)
+            append<dim>(
+              points,
+              facet_points<dim>(facets.facet[k], values, [&](const unsigned int v) -> const Point<dim> & {
+                return mesh.vertices[cell.vertex[v]].position;
+              }));
+        }
+      return points;
+    }
+
+    /// Is a distance far from linear in a cube? What is smaller than it may hide there then, between
+    /// vertices all on one side.
+    template <int dim>
+    bool
+    may_hide_something(const Scene<dim> &scene, const Point<dim> &centre, const double edge)
+    {
+      constexpr double   largest_part = 0.1; // of the edge; it is a sphere of 4 edges in radius
+      const double       in_middle    = scene.liquid_distance(centre);
+      const unsigned int last         = (1u << dim) - 1;
+      for (unsigned int i = 0; 2 * i < last; ++i)
+        if (const double mean = 0.5 * (scene.liquid_distance(vertex_of_cube(centre, edge, i)) +
+                                       scene.liquid_distance(vertex_of_cube(centre, edge, last - i)));
+            std::abs(mean - in_middle) > largest_part * edge)
+          return true;
+      return false;
+    }
+
+    /// Leaves that distances say the surface is in, to a level that shows it.
+    template <int dim>
+    typename Octree<dim>::Criterion
+    around_distances(const OctreeParameters<dim> &prm, const Scene<dim> &scene)
+    {
+      return [&](const std::vector<Leaf<dim>> &leaves) {
+        std::vector<bool> near;
+        for (const Leaf<dim> &leaf : leaves)
+          {
+            const Point<dim> x = centre<dim>(prm, leaf);
+            near.push_back(is_within(prm, leaf, scene.liquid_distance(x), prm.finest_size()) &&
+                           (leaf.level < prm.coarsest_at_surface() ||
+                            may_hide_something(scene, x, prm.size_of(leaf.level))));
+          }
+        return near;
+      };
+    }
+
+    /// Refines where the surface on the mesh before asks for it, until it asks for no more: not
+    /// everywhere to the finest level first, which no memory may hold.
+    template <int dim>
+    std::shared_ptr<const Mesh<dim>>
+    mesh_by_sizes(std::shared_ptr<const Octree<dim>> octree,
+                  const Sizing<dim>                 &sizing,
+                  const OctreeGrowth<dim>           &growth,
+                  const Scene<dim>                  &scene)
+    {
+      const OctreeParameters<dim> prm = octree->parameters();
+      for (unsigned int level = prm.coarsest_at_surface();; ++level)
+        {
+          const auto mesh = std::make_shared<const Mesh<dim>>(octree);
+          if (level == prm.surface_level + 2)
+            return mesh;
+          State<dim> state(mesh);
+          set_initial_level_set(state, scene);
+          redistance(state, TimeStep<dim>::reach_of_distance(0, *mesh));
+          const SurfaceGeometry<dim> surface(mesh, state.phi);
+          const Vector               size = sizing.at_surface(state, surface);
+          const auto                 points = [&](const double factor) {
+            return facets_by_level(surface.facets,
+                                   surface.facets.positions,
+                                   vertex_levels(prm, surface.facets, size, factor));
+          };
+          if (level > prm.coarsest_at_surface() && !growth.is_full(*octree) && !is_too_fine(*mesh, size) &&
+              Bands<dim>(*octree, scene, 0., points(1), false).are_in_leaves())
+            return mesh;
+          octree = growth.grow_around(*octree, points);
+        }
+    }
+  } // namespace
+
+  template <int dim>
+  std::shared_ptr<const Mesh<dim>>
+  initial_mesh(const MPI_Comm                         &comm,
+               const typename Octree<dim>::Parameters &prm,
+               const Scene<dim>                       &scene)
+  {
+    const Sizing<dim>       sizing(prm, scene);
+    const OctreeGrowth<dim> growth(comm, prm, sizing, scene, 0., [&](const std::vector<Point<dim>> &x) {
+      std::vector<double> values;
+      values.reserve(x.size());
+      for (const Point<dim> &p : x)
+        values.push_back(scene.liquid_distance(p));
+      return values;
+    });
+    // first where the distance is small, then around what was found: an
+    // expression need not be a distance
+    const auto octree = growth.grow(around_distances(prm, scene));
+    if (!sizing.is_uniform_at_surface())
+      return mesh_by_sizes(octree, sizing, growth, scene);
+    const BandPoints<dim> points{{prm.surface_level, initial_surface<dim>(octree, scene)}};
+    return std::make_shared<const Mesh<dim>>(
+      growth.grow_around(*octree, [&](const double) { return points; }));
+  }
+
+  template std::shared_ptr<const Mesh<2>>
+  initial_mesh(const MPI_Comm &, const Octree<2>::Parameters &, const Scene<2> &);
+  template std::shared_ptr<const Mesh<3>>
+  initial_mesh(const MPI_Comm &, const Octree<3>::Parameters &, const Scene<3> &);
+} // namespace treacle
