@@ -25,12 +25,17 @@ class Mesh:
         self.point_data, self.cell_data = point_data, cell_data
 
     def leaf_edges(self):
-        """Edge (m) of the leaf on which a cell of the lattice has a volume like each cell's, (m,)."""
+        """Edge (m) of the leaf on which a whole cell of the lattice has the volume of each cell, (m,)."""
         corners = self.points[self.cells]
         dim = corners.shape[1] - 1
         edges = (corners[:, 1:] - corners[:, :1])[:, :, :dim]
         volume = abs(numpy.linalg.det(edges)) / (2 if dim == 2 else 6)
         return (4 * volume)**0.5 if dim == 2 else (12 * volume)**(1 / 3)
+
+    def levels(self, largest):
+        """By how many levels the leaf of each cell is finer than leaves with an edge (m), (m,): cells beside
+        finer leaves have a half or a quarter of the volume of the others on their leaf."""
+        return numpy.floor(numpy.log2(largest / self.leaf_edges()) + 0.1)
 
 
 def read_mesh(path):

@@ -96,12 +96,13 @@ namespace treacle
                       leaves_across,
                       "Between the two surface levels leaves are so small that as many lie across "
                       "liquid, or a gap between liquid; 0: thickness asks for nothing.",
-                      Patterns::Double(0, 100));
+                      Patterns::Double(0, 10));
     prm.add_parameter("Size",
                       size,
                       "Largest edge (m) of leaves in the liquid and along the surface, down to those of "
                       "the Surface level; a formula in " +
-                        std::string(dim == 2 ? "x,y,t" : "x,y,z,t") + ". Empty: any.");
+                        std::string(dim == 2 ? "x,y,t" : "x,y,z,t") +
+                        ", taken at the centres of leaves and of their children. Empty: any.");
     prm.add_parameter("Maximum cells",
                       maximum_cells,
                       "Where the surface asks for more cells, about, it gets larger leaves than it asks for, "

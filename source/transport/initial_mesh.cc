@@ -45,12 +45,13 @@ namespace treacle
     bool
     may_hide_something(const Scene<dim> &scene, const Point<dim> &centre, const double edge)
     {
-      constexpr double   largest_part = 0.1; // of the edge; it is a sphere of 4 edges in radius
+      constexpr double   largest_part = 0.1; // of the edge
+      constexpr double   wider        = 1.5; // to see a sheet that lies between two
       const double       in_middle    = scene.liquid_distance(centre);
       const unsigned int last         = (1u << dim) - 1;
       for (unsigned int i = 0; 2 * i < last; ++i)
-        if (const double mean = 0.5 * (scene.liquid_distance(vertex_of_cube(centre, edge, i)) +
-                                       scene.liquid_distance(vertex_of_cube(centre, edge, last - i)));
+        if (const double mean = 0.5 * (scene.liquid_distance(vertex_of_cube(centre, wider * edge, i)) +
+                                       scene.liquid_distance(vertex_of_cube(centre, wider * edge, last - i)));
             std::abs(mean - in_middle) > largest_part * edge)
           return true;
       return false;

@@ -185,8 +185,9 @@ namespace treacle
   {
     Vector                       volume = domain.mesh.zeros(domain.mesh.cells);
     std::vector<LostVolume<dim>> left   = lost;
-    const double furthest = 2 * domain.mesh.surface_size();
-    for (double offset = 0.5 * domain.mesh.finest_size(); offset < 1.5 * furthest; offset *= 2)
+    const Mesh<dim> &mesh    = domain.mesh;
+    const double     largest = mesh.is_lattice() ? mesh.surface_size() : mesh.finest_size();
+    for (double offset = 0.5 * mesh.finest_size(); offset < 3 * largest; offset *= 2)
       left = add_to_cells(volume, domain, left, offset);
     volume.compress(VectorOperation::add); // an owner of a leaf does not own all cells over it
     return volume;

@@ -57,15 +57,30 @@ namespace treacle
   std::shared_ptr<const Octree<dim>>
   OctreeGrowth<dim>::grow_around(const Octree<dim> &octree, const PointsByFactor &points) const
   {
+    const auto with = [&](const double factor) {
+      const Bands<dim> bands(octree, scene, time, points(factor), false);
+      return grow([&](const std::vector<Leaf<dim>> &leaves) { return bands.touch(leaves); });
+    };
+    if (prm.maximum_cells == 0)
+      return with(1);
+    // powers of it, by bisection from the coarse end: no memory may hold the finest
     constexpr double coarser = 1.25;
     const double     largest = prm.size_of(prm.coarsest_at_surface()) / prm.finest_size();
-    for (double factor = 1;; factor *= coarser)
+    int              least = 0, most = std::ceil(std::log(largest) / std::log(coarser));
+    auto             result = with(std::pow(coarser, most));
+    while (least < most && !is_full(*result))
       {
-        const Bands<dim> bands(octree, scene, time, points(factor), false);
-        const auto result = grow([&](const std::vector<Leaf<dim>> &leaves) { return bands.touch(leaves); });
-        if (factor > largest || !is_full(*result))
-          return result;
+        const int  middle = (least + most) / 2;
+        const auto finer  = with(std::pow(coarser, middle));
+        if (is_full(*finer))
+          least = middle + 1;
+        else
+          {
+            most   = middle;
+            result = finer;
+          }
       }
+    return result;
   }
 
   template <int dim>
@@ -106,12 +121,15 @@ namespace treacle
                                     const std::vector<double>    &phi_at_centre,
                                     const bool                    while_growing) const
   {
+    // phi is a distance near the surface only; around it bands make leaves fine
+    const double      known = 2 * prm.size_of(prm.coarsest_at_surface());
     std::vector<bool> result(leaves.size(), false);
     std::string       error;
     keep_error(error, [&] {
       for (unsigned int i = 0; i < leaves.size(); ++i)
-        result[i] = phi_at_centre[i] < half_diagonal<dim>(prm.size_of(leaves[i].level)) &&
-                    is_too_coarse(leaves[i], while_growing);
+        result[i] =
+          phi_at_centre[i] < std::min(known, half_diagonal<dim>(prm.size_of(leaves[i].level))) &&
+          is_too_coarse(leaves[i], while_growing);
     });
     throw_first(comm, error);
     return result;

@@ -128,8 +128,7 @@ namespace treacle
           phi[i] = std::min(phi[i], scene.emitter_distance(x[i], time));
         return phi;
       });
-    const Vector size = sizing.is_uniform_at_surface() ? mesh.zeros(mesh.nodes) :
-                                                         sizing.at_surface(state, surface);
+    const Vector size = sizing.at_surface(state, surface);
     // what a bound keeps from being finer stays as it is until it is looked for a better mesh
     const bool             is_bounded = prm.maximum_cells > 0;
     const Vector           present    = is_bounded ? as_they_are(mesh, size) : Vector();
@@ -139,7 +138,7 @@ namespace treacle
       Bands<dim>(octree, scene, time, held.points(too_large), true).are_in_leaves() &&
       !(sizing.asks_in_liquid() && growth.is_any_too_coarse(owned_leaves(octree)));
     if (is_fine_enough &&
-        (state.step % steps_between_looks != 0 || !(is_bounded || is_too_fine(mesh, size))))
+        (state.step == 0 || state.step % steps_between_looks != 0 || !(is_bounded || is_too_fine(mesh, size))))
       return state.mesh;
     const auto tree =
       growth.grow_around(octree, [&](const double factor) { return moved.points_ahead(factor); });

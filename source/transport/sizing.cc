@@ -120,7 +120,13 @@ namespace treacle
   Vector
   Sizing<dim>::at_surface(const State<dim> &state, const SurfaceGeometry<dim> &surface) const
   {
-    const Mesh<dim>        &mesh   = *state.mesh;
+    const Mesh<dim> &mesh = *state.mesh;
+    if (is_uniform_at_surface())
+      {
+        Vector none = mesh.zeros(mesh.nodes);
+        none.update_ghost_values();
+        return none;
+      }
     const NodeVector<dim>   normal = normals(mesh, surface.level_set.gradients());
     Vector                  size   = by_curvature(mesh, normal, state.phi);
     std::vector<LocalIndex> nodes;
@@ -231,7 +237,7 @@ namespace treacle
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       if (const double s = size.local_element(node); s > 0)
         {
-          const double asked = prm.size_of(prm.level_of(too_small * s));
+          const double asked = prm.size_of(std::max(prm.level_of(too_small * s), prm.interior_level));
           count[0] += 1;
           count[1] += std::pow(std::min(1., surface_size_at_node(mesh, node) / asked), dim - 1);
         }

@@ -14,6 +14,7 @@ from synthetic_run import write_run
 
 from treacle import DataError, Run, read_parameters, read_statistics, read_surface, read_timing
 from treacle.layers import problems
+from treacle.mesh import Mesh
 from treacle.stream import centre_of_cut, coiling, folding
 from treacle.sweep import Scene, Verdict
 
@@ -203,6 +204,17 @@ class SweepTest(unittest.TestCase):
         self.assertAlmostEqual(found.energy_gained, 0.1)
         self.assertEqual((found.drift, found.largest_step_drift), (0.25, 0.5))
         self.assertAlmostEqual(found.speed, 1)
+
+
+class MeshTest(unittest.TestCase):
+    def test_levels(self):
+        # whole cells of leaves of edge 1 and 1/4, and a half of one of edge 1; in 3D also a quarter
+        for dim, whole, parts in ((2, 1 / 4, (1, 1 / 16, 1 / 2)), (3, 1 / 12, (1, 1 / 64, 1 / 2, 1 / 4))):
+            points = numpy.concatenate([[numpy.zeros(3), *numpy.eye(3)[:dim] @ numpy.diag([s, 1, 1])]
+                                        for s in (part * whole * math.factorial(dim) for part in parts)])
+            mesh = Mesh(points, numpy.arange(len(points)).reshape(-1, dim + 1), {}, {})
+            self.assertAlmostEqual(mesh.leaf_edges()[0], 1)
+            self.assertEqual(list(mesh.levels(1)), [0, 2, 0, 0][:len(parts)])
 
 
 class LayersTest(InDirectory):

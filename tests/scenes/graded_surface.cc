@@ -105,6 +105,12 @@ namespace
     levels<dim>(comm, "thick layer", mesh + "end\n" + box("0.3"), 0);
     levels<dim>(comm, "thin layer", mesh + "end\n" + box("0.06"), 0);
     levels<dim>(comm,
+                "sheet between coarse leaves",
+                mesh + "end\nsubsection Liquid 1\nset Shape = box\nset Lower corner = 0.3, " +
+                  (dim == 2 ? "" : "0.3, ") + "0.5\nset Upper corner = 0.7, " + (dim == 2 ? "" : "0.7, ") +
+                  "0.53\nend\n",
+                0);
+    levels<dim>(comm,
                 "drop",
                 mesh + "end\nsubsection Liquid 1\nset Centre = 0.5, 0.5" + all + "\nset Radius = 0.1\nend\n",
                 0);

@@ -40,7 +40,7 @@ namespace treacle
          const BandWidths                              &widths,
          const std::function<bool(const Point<dim> &)> &is_needed);
 
-    /// Is every cube a leaf, or part of none? Collective.
+    /// Is every cube a leaf, or made of smaller ones? Collective.
     bool
     is_in_leaves_of(const Octree<dim> &octree) const;
 

@@ -10,10 +10,10 @@
 
 namespace treacle
 {
-  /// The mesh for the surface after dt: the old one while the surface stays well
-  /// inside its finest leaves, else a new one around it; from a file always the old one.
-  /// @p next is where the surface's vertices and @p markers those after dt. Emitters that have not stopped are surrounded by
-  /// finest leaves as the surface is. Collective.
+  /// The mesh for the surface after dt: the old one while its leaves are as fine as surface, walls, solids
+  /// and formula ask for, and not much finer, else a new one around it; from a file always the old one.
+  /// @p next is where the surface's vertices and @p markers those after dt. Emitters that have not stopped are
+  /// surrounded by finest leaves. Collective.
   template <int dim>
   std::shared_ptr<const Mesh<dim>>
   mesh_for_next_surface(const State<dim>               &state,

@@ -29,7 +29,7 @@ namespace treacle
     }
 
     /// The largest leaf edge (m) at the nodes of cells that the surface cuts, from that of the surface
-    /// level to that of the coarsest one; 0 at all other nodes. Collective.
+    /// level to that of the coarsest one; 0 at all other nodes, and everywhere if its leaves have one size. Collective.
     Vector
     at_surface(const State<dim> &state, const SurfaceGeometry<dim> &surface) const;
 

@@ -6,8 +6,6 @@ import shutil
 import subprocess
 from dataclasses import dataclass
 
-import numpy
-
 from treacle.errors import DataError
 
 
@@ -46,11 +44,9 @@ def mesh_colours(run, frames, options):
     if options.colour != "level":
         limit = 0.1 * (run.upper - run.lower).min()
         return (lambda mesh: mesh.point_data["phi"][mesh.cells].mean(axis=1)), (-limit, limit), "level set (m)"
-    sizes = [run.mesh(k).leaf_edges() for k in frames]
-    largest = max(size.max() for size in sizes)
-    finest = round(numpy.log2(largest / min(size.min() for size in sizes)))
-    return ((lambda mesh: numpy.round(numpy.log2(largest / mesh.leaf_edges()))), (0, max(1, finest)),
-            "level")
+    largest = max(run.mesh(k).leaf_edges().max() for k in frames)
+    finest = max(run.mesh(k).levels(largest).max() for k in frames)
+    return (lambda mesh: mesh.levels(largest)), (0, max(1, finest)), "level"
 
 
 def draw(run, frames, options):
