@@ -35,7 +35,12 @@ class Mesh:
     def levels(self, largest):
         """By how many levels the leaf of each cell is finer than leaves with an edge (m), (m,): cells beside
         finer leaves have a half or a quarter of the volume of the others on their leaf."""
-        return numpy.floor(numpy.log2(largest / self.leaf_edges()) + 0.1)
+        return level_of(self.leaf_edges(), largest)
+
+
+def level_of(edge, largest):
+    """By how many levels a leaf is finer, see Mesh.levels()."""
+    return numpy.floor(numpy.log2(largest / edge) + 0.1)
 
 
 def read_mesh(path):

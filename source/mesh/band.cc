@@ -62,16 +62,6 @@ namespace treacle
       return result;
     }
 
-    /// The cube of a power of two of an edge that contains a smaller one.
-    template <int dim>
-    LatticePoint<dim>
-    cube_around(LatticePoint<dim> cube, const int size)
-    {
-      for (int &i : cube)
-        i &= ~(size - 1);
-      return cube;
-    }
-
     template <int dim>
     Point<dim>
     centre_of_cube(const Octree<dim> &octree, const VertexKey cube, const int size)

@@ -181,8 +181,7 @@ namespace treacle
     LatticePoint<dim> corner = finest_cube(x);
     for (int size = 2; size <= root_size(); size *= 2)
       {
-        for (auto &c : corner)
-          c &= ~(size - 1);
+        corner                = cube_around<dim>(corner, size);
         const LocalIndex leaf = leaf_at(corner);
         if (leaf != invalid && all_leaves[leaf].size == size)
           return leaf;

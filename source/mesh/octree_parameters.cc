@@ -66,12 +66,12 @@ namespace treacle
                       Patterns::Integer(0, 18));
     prm.add_parameter("Band width",
                       band_width,
-                      "Number of finest leaves inside the surface.",
+                      "Number of leaves inside the surface that are as fine as those on it.",
                       Patterns::Integer(1, 20));
     prm.add_parameter("Air band width",
                       air_band_width,
-                      "Number of finest leaves outside of the surface; where it moves, a new "
-                      "mesh is fine ahead of it too.",
+                      "The same outside of the surface; where it moves, a new mesh is fine ahead "
+                      "of it too.",
                       Patterns::Integer(1, 20));
     add_sizes(prm);
     prm.leave_subsection();
@@ -140,9 +140,10 @@ namespace treacle
   unsigned int
   OctreeParameters<dim>::level_of(const double size) const
   {
-    unsigned int level = 0;
-    while (level < surface_level && size_of(level) > size * (1 + 1e-9))
-      ++level;
+    // from the finest on: along most of a surface that is the answer
+    unsigned int level = surface_level;
+    for (double edge = 2 * finest_size(); level > 0 && edge <= size * (1 + 1e-9); edge *= 2)
+      --level;
     return level;
   }
 

@@ -183,8 +183,7 @@ namespace treacle
       double
       size_at(const Point<dim> &x) const
       {
-        const LocalIndex cell = mesh.locator().locate_here(x).cell;
-        return cell == invalid ? mesh.finest_size() : surface_size_of_cell(mesh, cell);
+        return surface_size_of_cell(mesh, mesh.locator().locate_here(x).cell);
       }
 
       /// From the facets to the smooth surface they are chords of.

@@ -37,10 +37,7 @@ namespace treacle
       {
         for (LocalIndex c = 0; c < cell.size(); ++c)
           {
-            unsigned int n_negative = 0;
-            for (const LocalIndex i : mesh.cell_nodes[c])
-              n_negative += phi.local_element(i) < 0;
-            cell[c] = n_negative > 0 && n_negative <= dim;
+            cell[c] = is_cut(mesh, phi, c);
             if (cell[c])
               for (const LocalIndex i : mesh.cell_nodes[c])
                 node[i] = 1;

@@ -50,8 +50,7 @@ namespace treacle
     for (unsigned int k = 0; k < samples.size(); ++k)
       {
         const Marker<dim>  &marker    = state.markers[k];
-        const double        h         = cells[k] == invalid ? mesh.finest_size() :
-                                                              surface_size_of_cell(mesh, cells[k]);
+        const double        h         = surface_size_of_cell(mesh, cells[k]);
         const double        phi       = samples[k].value;
         const bool          is_smooth = samples[k].smoothness > 0.9;
         const Tensor<1, dim> gradient = samples[k].gradient;

@@ -60,24 +60,32 @@ namespace treacle
       BandPoints<dim>
       points(const double factor) const
       {
-        const OctreeParameters<dim> &prm = mesh.octree().parameters();
-        BandPoints<dim>              result =
-          facets_by_level(surface, vertices, vertex_levels(prm, surface, size, factor));
-        for (const Marker<dim> &marker : markers)
-          result[prm.coarsest_at_surface()].push_back({marker.position, {}});
-        return result;
+        return points_at(levels(factor));
       }
 
       /// And where it goes on to.
       BandPoints<dim>
       points_ahead(const double factor) const
       {
-        BandPoints<dim> result = points(factor);
-        append_way_ahead(result,
-                         mesh,
-                         surface.positions,
-                         vertices,
-                         vertex_levels(mesh.octree().parameters(), surface, size, factor));
+        const std::vector<unsigned int> level  = levels(factor);
+        BandPoints<dim>                 result = points_at(level);
+        append_way_ahead(result, mesh, surface.positions, vertices, level);
+        return result;
+      }
+
+    private:
+      std::vector<unsigned int>
+      levels(const double factor) const
+      {
+        return vertex_levels(mesh.octree().parameters(), surface, size, factor);
+      }
+
+      BandPoints<dim>
+      points_at(const std::vector<unsigned int> &level) const
+      {
+        BandPoints<dim> result = facets_by_level(surface, vertices, level);
+        for (const Marker<dim> &marker : markers)
+          result[mesh.octree().parameters().coarsest_at_surface()].push_back({marker.position, {}});
         return result;
       }
     };
@@ -101,7 +109,6 @@ namespace treacle
       result.update_ghost_values();
       return result;
     }
-
   } // namespace
 
   template <int dim>

@@ -39,15 +39,6 @@ namespace treacle
       return result;
     }
 
-    template <int dim>
-    bool
-    is_cut(const Mesh<dim> &mesh, const Vector &phi, const LocalIndex cell)
-    {
-      const VertexValues<dim> values = mesh.values(cell, phi);
-      const auto [least, most]       = std::minmax_element(values.begin(), values.end());
-      return *least < 0 && *most >= 0;
-    }
-
     /// The larger principal curvature (1/m) at the nodes of cut cells, -1 at others: of the gradient of
     /// the normals, mean over the cut cells around a node and then over the nodes of these, for on
     /// graded cells one mean is rough. Collective.
@@ -59,37 +50,30 @@ namespace treacle
       row.reserve(dim); // a vector of them that grows would lose their ghosts
       for (unsigned int d = 0; d < dim; ++d)
         row.emplace_back(mesh.nodes);
-      const auto mean = [&](const LocalIndex node, const auto &of_cell) {
-        Tensor<2, dim> sum;
-        double         volume = 0;
-        for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
-          if (const LocalIndex c = mesh.node_cells[k]; is_cut(mesh, phi, c))
-            {
-              sum += mesh.cell_volume[c] * of_cell(c);
-              volume += mesh.cell_volume[c];
-            }
-        return volume > 0 ? std::optional<Tensor<2, dim>>(sum / volume) : std::nullopt;
-      };
+      const auto cut = [&](const LocalIndex c) { return is_cut(mesh, phi, c); };
+      Tensor<2, dim> mean;
       for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-        if (const auto gradient =
-              mean(node, [&](const LocalIndex c) { return velocity_gradient(mesh, c, normal); }))
+        if (mean_of_cells(
+              mesh, node, cut, [&](const LocalIndex c) { return velocity_gradient(mesh, c, normal); }, mean))
           for (unsigned int d = 0; d < dim; ++d)
-            row[d].set(node, (*gradient)[d]);
+            row[d].set(node, mean[d]);
       for (NodeVector<dim> &r : row)
         r.update_ghost_values();
+      const auto mean_of_nodes = [&](const LocalIndex c) {
+        Tensor<2, dim> sum;
+        for (const LocalIndex node : mesh.cell_nodes[c])
+          for (unsigned int d = 0; d < dim; ++d)
+            sum[d] += row[d].value(node) / (dim + 1);
+        return sum;
+      };
       Vector result = mesh.zeros(mesh.nodes);
       for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
         {
-          const auto smoothed = mean(node, [&](const LocalIndex c) {
-            Tensor<2, dim> sum;
-            for (const LocalIndex other : mesh.cell_nodes[c])
-              for (unsigned int d = 0; d < dim; ++d)
-                sum[d] += row[d].value(other) / (dim + 1);
-            return sum;
-          });
-          const auto principal = smoothed ? eigenvalues(symmetrize(*smoothed)) : std::array<double, dim>{{-1}};
-          result.local_element(node) =
-            smoothed ? std::max(std::abs(principal.front()), std::abs(principal.back())) : -1;
+          result.local_element(node) = -1;
+          if (!mean_of_cells(mesh, node, cut, mean_of_nodes, mean))
+            continue;
+          const auto principal       = eigenvalues(symmetrize(mean));
+          result.local_element(node) = std::max(std::abs(principal.front()), std::abs(principal.back()));
         }
       return result;
     }
@@ -192,7 +176,7 @@ namespace treacle
   {
     const double size = (*largest)(x, time);
     if (!(size >= 0))
-      value_error("Mesh/Size", size, "positive", x, time);
+      value_error("Mesh/Size", size, "0 or more", x, time);
     return size;
   }
 

@@ -56,22 +56,21 @@ namespace treacle
           {
             if (!is_liquid(node) || domain.constrained[node] != 0)
               continue;
-            Tensor<2, dim> sum;
-            double         volume = 0;
-            for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
-              {
-                const LocalIndex c     = mesh.node_cells[k];
-                const auto      &nodes = mesh.cell_nodes[c];
-                if (!std::all_of(nodes.begin(), nodes.end(), is_liquid))
-                  continue;
-                sum += mesh.cell_volume[c] * velocity_gradient(mesh, c, v);
-                volume += mesh.cell_volume[c];
-              }
-            if (volume == 0)
+            Tensor<2, dim> gradient;
+            const bool     is_found = mean_of_cells(
+              mesh,
+              node,
+              [&](const LocalIndex c) {
+                const auto &nodes = mesh.cell_nodes[c];
+                return std::all_of(nodes.begin(), nodes.end(), is_liquid);
+              },
+              [&](const LocalIndex c) { return velocity_gradient(mesh, c, v); },
+              gradient);
+            if (!is_found)
               continue;
             is_known.local_element(node) = 1;
             for (unsigned int d = 0; d < dim; ++d)
-              row[d].set(node, sum[d] / volume);
+              row[d].set(node, gradient[d]);
           }
         is_known.update_ghost_values();
         for (NodeVector<dim> &r : row)

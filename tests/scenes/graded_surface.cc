@@ -98,13 +98,13 @@ namespace
                              "\nset Coarsest surface level = " + (dim == 2 ? "3" : "2") + "\n"
                              "set Interior level = 2\nset Air level = 2\n";
     const std::string y = dim == 2 ? "y" : "z", all = dim == 2 ? "" : ", 0.5";
-    const auto        box = [&](const std::string &half) {
+    const auto        box = [](const double half) {
       return "subsection Liquid 1\nset Shape = box\nset Lower corner = -1, " + std::string(dim == 2 ? "" : "-1, ") +
-             std::to_string(0.5 - std::stod(half)) + "\nset Upper corner = 2, " + (dim == 2 ? "" : "2, ") +
-             std::to_string(0.5 + std::stod(half)) + "\nend\n";
+             std::to_string(0.5 - half) + "\nset Upper corner = 2, " + (dim == 2 ? "" : "2, ") +
+             std::to_string(0.5 + half) + "\nend\n";
     };
-    levels<dim>(comm, "thick layer", mesh + "end\n" + box("0.3"), 0);
-    levels<dim>(comm, "thin layer", mesh + "end\n" + box("0.06"), 0);
+    levels<dim>(comm, "thick layer", mesh + "end\n" + box(0.3), 0);
+    levels<dim>(comm, "thin layer", mesh + "end\n" + box(0.06), 0);
     levels<dim>(comm,
                 "sheet between coarse leaves",
                 mesh + "end\nsubsection Liquid 1\nset Shape = box\nset Lower corner = 0.3, " +

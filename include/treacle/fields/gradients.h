@@ -30,6 +30,29 @@ namespace treacle
     return g;
   }
 
+  /// The volume-weighted mean of @p value (cell) over the cells around an owned node that @p counts
+  /// holds for; false if there are none.
+  template <int dim, typename Counts, typename Value, typename Result>
+  bool
+  mean_of_cells(const Mesh<dim>  &mesh,
+                const LocalIndex  node,
+                const Counts     &counts,
+                const Value      &value,
+                Result           &mean)
+  {
+    double volume = 0;
+    mean          = Result();
+    for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+      if (const LocalIndex c = mesh.node_cells[k]; counts(c))
+        {
+          mean += mesh.cell_volume[c] * value(c);
+          volume += mesh.cell_volume[c];
+        }
+    if (volume > 0)
+      mean /= volume;
+    return volume > 0;
+  }
+
   template <int dim>
   struct MeanGradient
   {

@@ -33,6 +33,16 @@ namespace treacle
     return p;
   }
 
+  /// The cube with this edge, a power of two, that contains a smaller one: their lowest corners.
+  template <int dim>
+  inline LatticePoint<dim>
+  cube_around(LatticePoint<dim> cube, const int size)
+  {
+    for (int &i : cube)
+      i &= ~(size - 1);
+    return cube;
+  }
+
   /// A leaf of the octree: its lowest corner and edge in lattice units.
   template <int dim>
   struct Leaf

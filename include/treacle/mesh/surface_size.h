@@ -8,13 +8,13 @@
 
 namespace treacle
 {
-  /// Leaf edge (m) of a cell that the surface passes through; in a mesh from a file the mean cell
-  /// size.
+  /// Leaf edge (m) of a cell that the surface passes through; the finest for an invalid one, in a mesh
+  /// from a file the mean cell size.
   template <int dim>
   double
   surface_size_of_cell(const Mesh<dim> &mesh, const LocalIndex cell)
   {
-    return mesh.is_lattice() ? std::min(mesh.cell_size[cell], mesh.surface_size()) :
+    return mesh.is_lattice() && cell != invalid ? std::min(mesh.cell_size[cell], mesh.surface_size()) :
                                mesh.finest_size();
   }
 

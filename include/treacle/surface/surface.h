@@ -48,6 +48,17 @@ namespace treacle
   Surface<dim>
   extract_surface(const Mesh<dim> &mesh, const Vector &phi);
 
+  /// Does the surface pass through a cell?
+  template <int dim>
+  bool
+  is_cut(const Mesh<dim> &mesh, const Vector &phi, const LocalIndex cell)
+  {
+    unsigned int n_negative = 0;
+    for (const LocalIndex node : mesh.cell_nodes[cell])
+      n_negative += phi.local_element(node) < 0;
+    return n_negative > 0 && n_negative <= dim;
+  }
+
   /// Call @p visit with the vertices of each facet of phi = 0 in a cell.
   template <int dim, typename Visit>
   void

@@ -44,9 +44,11 @@ def mesh_colours(run, frames, options):
     if options.colour != "level":
         limit = 0.1 * (run.upper - run.lower).min()
         return (lambda mesh: mesh.point_data["phi"][mesh.cells].mean(axis=1)), (-limit, limit), "level set (m)"
-    largest = max(run.mesh(k).leaf_edges().max() for k in frames)
-    finest = max(run.mesh(k).levels(largest).max() for k in frames)
-    return (lambda mesh: mesh.levels(largest)), (0, max(1, finest)), "level"
+    from treacle.mesh import level_of  # needs vtk
+    edges = (run.mesh(k).leaf_edges() for k in frames)
+    extremes = [(e.min(), e.max()) for e in edges]
+    smallest, largest = min(e[0] for e in extremes), max(e[1] for e in extremes)
+    return (lambda mesh: mesh.levels(largest)), (0, max(1, level_of(smallest, largest))), "level"
 
 
 def draw(run, frames, options):
