@@ -4,7 +4,7 @@
 #include <treacle/base/files.h>
 #include <treacle/fields/initial_state.h>
 #include <treacle/simulator.h>
-#include <treacle/surface/material_extension.h>
+#include <treacle/surface/carried_material.h>
 #include <treacle/surface/redistance.h>
 #include <treacle/transport/initial_mesh.h>
 
@@ -149,8 +149,8 @@ namespace treacle
     redistance(state, time_step.largest_reach(*mesh));
     if (scene.has_advected_material())
       {
-        set_initial_material(state, scene);
-        movement.extend_material(state, *liquid.mesh_data);
+        set_initial_material(state, *liquid.mesh_data);
+        movement.settle_material(state, *liquid.mesh_data);
       }
     liquid.surface = std::make_unique<const SurfaceGeometry<dim>>(mesh, state.phi);
     movement.tracking.reseed(state, scene, *liquid.surface);

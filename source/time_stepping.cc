@@ -183,13 +183,15 @@ namespace treacle
                               const typename Transport<dim>::Info &moved,
                               const double                         volume) const
   {
-    Liquid<dim> pushed =
-      with_state(liquid, dynamics.outflow(liquid, lost_by_cells(*liquid.domain, moved.lost), timing));
+    // what walls do has been done: they must not push once more
+    Liquid<dim> pushed = liquid;
+    pushed.domain      = liquid.domain->with_walls_at_rest();
+    pushed.state = dynamics.outflow(pushed, lost_by_cells(*liquid.domain, moved.lost), timing);
     if (!pushed.state)
       return;
     extend_velocity(pushed);
     timing.measured("surface", [&] {
-      movement.displace(liquid, *pushed.state, moved.missing, volume);
+      movement.displace(liquid, pushed, moved.missing, volume);
     });
     find(liquid);
     // a blow: how the velocity changed until now tells nothing of how it will

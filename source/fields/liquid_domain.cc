@@ -109,8 +109,8 @@ namespace treacle
       const auto [lower, upper] = std::minmax_element(values.begin(), values.end());
       return std::min(std::max(value, *lower), *upper);
     };
-    viscosity[c] = mean(state.material->viscosity);
-    density[c]   = mean(state.material->density);
+    viscosity[c] = mean(state.material->viscosity.mean);
+    density[c]   = mean(state.material->density.mean);
     if (!(density[c] > 0))
       value_error("The density that the liquid carries",
                   density[c],
@@ -302,6 +302,16 @@ namespace treacle
     for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
       volume += liquid_volume[c];
     return Utilities::MPI::sum(volume, mesh.communicator());
+  }
+
+  template <int dim>
+  std::shared_ptr<const LiquidDomain<dim>>
+  LiquidDomain<dim>::with_walls_at_rest() const
+  {
+    const auto domain = std::make_shared<LiquidDomain>(*this);
+    std::fill(domain->solid_velocity.begin(), domain->solid_velocity.end(), 0.);
+    std::fill(domain->prescribed.begin(), domain->prescribed.end(), Tensor<1, dim>());
+    return domain;
   }
 
   template class LiquidDomain<2>;

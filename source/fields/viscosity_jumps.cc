@@ -2,14 +2,13 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/exchange.h>
+#include <treacle/fields/carried_in_cell.h>
 #include <treacle/fields/viscosity_jumps.h>
 
 namespace treacle
 {
   namespace
   {
-    /// Largest over smallest viscosity at the nodes of a cell: less is smooth.
-    constexpr double jump = 1.5;
     /// Of the mean: layers that slide on one another ask for -1, but a velocity that is linear across
     /// the jump makes them too stiff. Measured: doc/method.md.
     constexpr double exponent = -2;
@@ -38,67 +37,80 @@ namespace treacle
       return result;
     }
 
+    /// The mean over a cell's liquid of @p viscosity (barycentric coordinates); @p otherwise if none
+    /// is found.
+    template <int dim, typename Viscosity>
+    double
+    mean_of_liquid(const State<dim>          &state,
+                   const std::vector<double> &solid_distance,
+                   const LocalIndex           c,
+                   const double               otherwise,
+                   const Viscosity           &viscosity)
+    {
+      static const std::vector<VertexValues<dim>> even = even_points<dim>();
+
+      const VertexValues<dim> phi   = state.mesh->values(c, state.phi);
+      const VertexValues<dim> solid = state.mesh->values(c, solid_distance);
+      double                  sum   = 0;
+      unsigned int            n     = 0;
+      for (const VertexValues<dim> &lambda : even)
+        {
+          double phi_at = 0, solid_at = 0;
+          for (unsigned int i = 0; i <= dim; ++i)
+            {
+              phi_at += lambda[i] * phi[i];
+              solid_at += lambda[i] * solid[i];
+            }
+          if (phi_at >= 0 || solid_at <= 0)
+            continue;
+          sum += std::pow(viscosity(lambda), exponent);
+          ++n;
+        }
+      return n > 0 ? std::pow(sum / n, 1 / exponent) : otherwise;
+    }
+
     template <int dim>
-    class Jumps
+    class FormulaInCells
     {
     public:
-      Jumps(const Scene<dim> &scene, const State<dim> &state, const std::vector<double> &solid_distance)
+      FormulaInCells(const Scene<dim> &scene, const State<dim> &state)
         : scene(scene)
-        , state(state)
-        , solid_distance(solid_distance)
-        , at_node(solid_distance.size(), unknown)
+        , mesh(*state.mesh)
+        , time(state.time)
+        , at_node(mesh.node_position.size(), unknown)
       {}
 
       bool
-      is_cut(const LocalIndex c)
+      jumps(const LocalIndex c)
       {
         double least = std::numeric_limits<double>::max(), most = 0;
-        for (const LocalIndex node : state.mesh->cell_nodes[c])
+        for (const LocalIndex node : mesh.cell_nodes[c])
           {
             double &value = at_node[node];
             if (value == unknown)
-              value = scene.viscosity(state.mesh->node_position[node], state.time);
+              value = scene.viscosity(mesh.node_position[node], time);
             least = std::min(least, value);
             most  = std::max(most, value);
           }
-        return most > jump * least;
+        return most > least_jump * least;
       }
 
-      /// Of a cell's liquid; @p otherwise if none is found.
       double
-      mean(const LocalIndex c, const double otherwise) const
+      value(const LocalIndex c, const VertexValues<dim> &lambda) const
       {
-        const Simplex<dim>      x     = state.mesh->cell_vertices(c);
-        const VertexValues<dim> phi   = state.mesh->values(c, state.phi);
-        const VertexValues<dim> solid = state.mesh->values(c, solid_distance);
-        double                  sum   = 0;
-        unsigned int            n     = 0;
-        for (const VertexValues<dim> &lambda : even)
-          {
-            Point<dim> point;
-            double     phi_at = 0, solid_at = 0;
-            for (unsigned int i = 0; i <= dim; ++i)
-              {
-                point += lambda[i] * x[i];
-                phi_at += lambda[i] * phi[i];
-                solid_at += lambda[i] * solid[i];
-              }
-            if (phi_at >= 0 || solid_at <= 0)
-              continue;
-            sum += std::pow(scene.viscosity(point, state.time), exponent);
-            ++n;
-          }
-        return n > 0 ? std::pow(sum / n, 1 / exponent) : otherwise;
+        Point<dim> point;
+        for (unsigned int i = 0; i <= dim; ++i)
+          point += lambda[i] * mesh.node_position[mesh.cell_nodes[c][i]];
+        return scene.viscosity(point, time);
       }
 
     private:
       static constexpr double unknown = -1;
 
-      const Scene<dim>                    &scene;
-      const State<dim>                    &state;
-      const std::vector<double>           &solid_distance;
-      std::vector<double>                  at_node;
-      const std::vector<VertexValues<dim>> even = even_points<dim>();
+      const Scene<dim>   &scene;
+      const Mesh<dim>    &mesh;
+      const double        time;
+      std::vector<double> at_node;
     };
   } // namespace
 
@@ -110,16 +122,24 @@ namespace treacle
                const std::vector<double> &liquid_volume,
                std::vector<double>       &viscosity)
   {
-    if (state.material || scene.has_constant_viscosity())
+    if (!state.material && scene.has_constant_viscosity())
       return;
-    Jumps<dim>  jumps(scene, state, solid_distance);
+    FormulaInCells<dim> formula(scene, state);
+    const auto          soften = [&](const LocalIndex c, const auto &value) {
+      viscosity[c] = mean_of_liquid(state, solid_distance, c, viscosity[c], value);
+    };
     std::string error;
     for (LocalIndex c = 0; c < viscosity.size(); ++c)
       if (liquid_volume[c] > 0)
-        keep_error(error, [&] {
-          if (jumps.is_cut(c))
-            viscosity[c] = jumps.mean(c, viscosity[c]);
-        });
+        {
+          if (!state.material)
+            keep_error(error, [&] {
+              if (formula.jumps(c))
+                soften(c, [&](const auto &lambda) { return formula.value(c, lambda); });
+            });
+          else if (const CarriedInCell<dim> carried(*state.mesh, state.material->viscosity, c); carried.jumps())
+            soften(c, [&](const auto &lambda) { return carried.sharp(lambda); });
+        }
     throw_first(state.mesh->communicator(), error);
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/fields/moved_points.h>
 #include <treacle/io/row_order.h>
 #include <treacle/io/saved_state.h>
 #include <treacle/io/table_file.h>
@@ -34,8 +35,9 @@ namespace treacle
           at_faces.push_back(&*state.before->u);
         if (state.material)
           {
-            at_nodes.push_back(&state.material->density);
-            at_nodes.push_back(&state.material->viscosity);
+            for (auto *field : {&state.material->density, &state.material->viscosity})
+              for (auto *v : {&field->mean, &field->least, &field->largest})
+                at_nodes.push_back(v);
           }
       }
 
@@ -145,36 +147,39 @@ namespace treacle
       });
     }
 
-    template <int dim>
+    template <typename Item>
     void
-    write_markers(const State<dim> &state, const std::string &path)
+    write_items(const MPI_Comm &comm, const std::vector<Item> &items, const std::string &path)
     {
       std::vector<double> numbers;
-      for (const Marker<dim> &marker : state.markers)
+      for (const Item &item : items)
         {
-          const auto of_marker = marker.numbers();
-          numbers.insert(numbers.end(), of_marker.begin(), of_marker.end());
+          const auto of_item = item.numbers();
+          numbers.insert(numbers.end(), of_item.begin(), of_item.end());
         }
-      TableFile<double>::write(state.mesh->communicator(), path, numbers);
+      TableFile<double>::write(comm, path, numbers);
     }
 
-    /// Each rank reads an even part; in this order a rank has its markers in the order in
-    /// which it saved them.
-    template <int dim>
-    std::vector<Marker<dim>>
-    read_markers(const Mesh<dim> &mesh, const std::string &path, const std::uint64_t n)
+    /// Each rank reads an even part; in this order a rank has its markers, or material points, in the
+    /// order in which it saved them.
+    template <int dim, template <int> class Item>
+    void
+    read_items(const Mesh<dim>        &mesh,
+               const std::string      &path,
+               const std::uint64_t     n,
+               std::vector<Item<dim>> &items)
     {
       const MPI_Comm         &comm    = mesh.communicator();
       const std::uint64_t     rank    = Utilities::MPI::this_mpi_process(comm);
       const std::uint64_t     n_ranks = Utilities::MPI::n_mpi_processes(comm);
       const std::uint64_t     begin   = n * rank / n_ranks, end = n * (rank + 1) / n_ranks;
-      constexpr std::uint64_t size    = 2 * dim;
+      constexpr std::uint64_t size    = std::tuple_size<typename Item<dim>::Numbers>::value;
       const auto              numbers =
         TableFile<double>::read(comm, path, size * begin, size * (end - begin));
-      std::vector<Marker<dim>> part;
+      items.clear();
       for (std::uint64_t k = 0; k < end - begin; ++k)
-        part.push_back(Marker<dim>::from(&numbers[size * k]));
-      return to_owners(mesh, part);
+        items.push_back(Item<dim>::from(&numbers[size * k]));
+      items = to_owners(mesh, items);
     }
   } // namespace
 
@@ -183,16 +188,20 @@ namespace treacle
   write_state(const State<dim> &state, const std::string &directory)
   {
     write_numbers(state, directory + "/numbers");
-    write_markers(state, directory + "/markers");
-    const auto n_markers = Utilities::MPI::sum(static_cast<std::uint64_t>(state.markers.size()),
-                                               state.mesh->communicator());
+    const MPI_Comm &comm = state.mesh->communicator();
+    const auto      save = [&](const auto &items, const std::string &name) {
+      write_items(comm, items, directory + "/" + name);
+      return Utilities::MPI::sum(static_cast<std::uint64_t>(items.size()), comm);
+    };
     std::ostringstream out;
     out << std::setprecision(17) << "Time = " << state.time << "\nStep = " << state.step
         << "\nVelocity before = "
         << (!state.before ? "none" : state.before->v ? "nodes" : "faces")
         << "\nStep before = " << (state.before ? state.before->dt : 0.)
         << "\nAdvected material = " << (state.material ? "true" : "false")
-        << "\nMarkers = " << n_markers << '\n';
+        << "\nMarkers = " << save(state.markers, "markers") << '\n';
+    if (state.material)
+      out << "Material points = " << save(state.material->points, "material_points") << '\n';
     return out.str();
   }
 
@@ -204,7 +213,7 @@ namespace treacle
   {
     State<dim> state(mesh);
     if (info.get("Advected material") == "true")
-      state.material = CarriedMaterial(mesh->nodes);
+      state.material.emplace(mesh->nodes);
     if (const std::string before = info.get("Velocity before"); before != "none")
       {
         state.before.emplace();
@@ -217,7 +226,12 @@ namespace treacle
     state.time = info.number("Time");
     state.step = info.count("Step");
     read_numbers(state, directory + "/numbers");
-    state.markers = read_markers<dim>(*mesh, directory + "/markers", info.count("Markers"));
+    read_items(*mesh, directory + "/markers", info.count("Markers"), state.markers);
+    if (state.material)
+      read_items(*mesh,
+                 directory + "/material_points",
+                 info.count("Material points"),
+                 state.material->points);
     return state;
   }
 

@@ -33,18 +33,25 @@ namespace treacle
     void
     set_material(State<dim> &state, const Scene<dim> &scene, const double time)
     {
-      const Mesh<dim> &mesh = *state.mesh;
-      std::string      error;
-      for (const Emitter<dim> &emitter : scene.emitters())
-        if (emitter.is_at_work(time))
-          for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-            if (const Point<dim> &x = mesh.node_position[node]; emitter.signed_distance(x) <= 0)
-              keep_error(error, [&] {
-                state.material->density.local_element(node)   = emitter.material.density(x, time);
-                state.material->viscosity.local_element(node) = emitter.material.viscosity(x, time);
-              });
+      const Mesh<dim>      &mesh     = *state.mesh;
+      CarriedMaterial<dim> &material = *state.material;
+      std::string           error;
+      const auto            set = [&](const Point<dim> &x, double &density, double &viscosity) {
+        for (const Emitter<dim> &emitter : scene.emitters())
+          if (emitter.is_at_work(time) && emitter.signed_distance(x) <= 0)
+            keep_error(error, [&] {
+              density   = emitter.material.density(x, time);
+              viscosity = emitter.material.viscosity(x, time);
+            });
+      };
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        set(mesh.node_position[node],
+            material.density.mean.local_element(node),
+            material.viscosity.mean.local_element(node));
+      for (MaterialPoint<dim> &point : material.points)
+        set(point.position, point.density, point.viscosity);
       throw_first(mesh.communicator(), error);
-      state.material->update_ghost_values();
+      material.update_ghost_values();
     }
   } // namespace
 

@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/fields/gradients.h>
+#include <treacle/fields/moved_points.h>
 #include <treacle/mesh/tracer.h>
 #include <treacle/surface/marker_motion.h>
 
@@ -65,6 +66,21 @@ namespace treacle
     return moved;
   }
 
+  template <int dim>
+  std::vector<MaterialPoint<dim>>
+  moved_material(const State<dim> &state, const NodeVector<dim> &velocity, const double dt)
+  {
+    std::vector<MaterialPoint<dim>> moved = state.material->points;
+    const auto ends = Tracer<dim>(*state.mesh).trace(positions(moved), velocity, dt);
+    for (unsigned int k = 0; k < moved.size(); ++k)
+      moved[k].position = ends[k];
+    return moved;
+  }
+
+  template std::vector<MaterialPoint<2>>
+  moved_material(const State<2> &, const NodeVector<2> &, const double);
+  template std::vector<MaterialPoint<3>>
+  moved_material(const State<3> &, const NodeVector<3> &, const double);
   template std::vector<Marker<2>>
   moved_markers(const State<2> &, const NodeVector<2> &, const double);
   template std::vector<Marker<3>>

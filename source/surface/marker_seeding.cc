@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/scattered.h>
+#include <treacle/fields/moved_points.h>
 #include <treacle/mesh/surface_size.h>
 #include <treacle/surface/marker_seeding.h>
 #include <treacle/surface/near_markers.h>
@@ -9,34 +11,18 @@ namespace treacle
 {
   namespace
   {
-    /// A number in [0, 1) from an integer, the same everywhere (splitmix64).
-    double
-    scattered(std::uint64_t z)
-    {
-      z += 0x9e3779b97f4a7c15ull;
-      z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-      z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-      return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-    }
-
-    /// Point k of an even sequence on a facet (Roberts 2018: steps by the powers of the
-    /// root of x^dim = x + 1).
     template <int dim>
     Point<dim>
     even_point(const std::array<Point<dim>, dim> &facet, const double start, const unsigned int k)
     {
-      const double root = dim == 2 ? 1.618033988749895 : 1.324717957244746;
-      double       ignored;
-      double       s = std::modf(start + k / root, &ignored);
-      if (dim == 2)
-        return facet[0] + s * (facet[1] - facet[0]);
-      double t = std::modf(start + k / (root * root), &ignored);
-      if (s + t > 1)
-        {
-          s = 1 - s;
-          t = 1 - t;
-        }
-      return facet[0] + s * (facet[1] - facet[0]) + t * (facet[dim - 1] - facet[0]);
+      std::array<double, dim - 1> s = treacle::even_point<dim - 1>(start, k);
+      if (dim == 3 && s[0] + s[dim - 2] > 1)
+        for (double &coordinate : s)
+          coordinate = 1 - coordinate;
+      Point<dim> x = facet[0];
+      for (unsigned int i = 0; i + 1 < dim; ++i)
+        x += s[i] * (facet[i + 1] - facet[0]);
+      return x;
     }
 
     /// Area of a plane in a cell, the mean over all planes that cut one: volume over
@@ -124,11 +110,8 @@ namespace treacle
           {
             const double n      = count.local_element(cells[k]);
             const double target = wanted.local_element(cells[k]);
-            std::uint64_t place = 0;
-            for (unsigned int d = 0; d < dim; ++d)
-              place = 0x100000001b3ull * place + static_cast<std::int64_t>(std::floor(
-                        1e3 * state.markers[k].position[d] / mesh.finest_size()));
-            if (target == 0 || n <= 2 * target + 2 || scattered(place) * n < target)
+            if (target == 0 || n <= 2 * target + 2 || 
+                scattered_at(state.markers[k].position, 1e-3 * mesh.finest_size()) * n < target)
               kept.push_back(state.markers[k]);
           }
         state.markers = std::move(kept);

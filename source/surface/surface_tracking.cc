@@ -3,6 +3,7 @@
 
 #include <treacle/base/choice.h>
 #include <treacle/fields/liquid_volume.h>
+#include <treacle/fields/moved_points.h>
 #include <treacle/surface/marker_correction.h>
 #include <treacle/surface/marker_seeding.h>
 #include <treacle/surface/redistance.h>

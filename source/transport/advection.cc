@@ -3,7 +3,7 @@
 
 #include <treacle/base/choice.h>
 #include <treacle/fields/face_node.h>
-#include <treacle/surface/marker_motion.h>
+#include <treacle/fields/moved_points.h>
 #include <treacle/transport/advection.h>
 #include <treacle/transport/back_and_forth.h>
 #include <treacle/transport/surface_velocity.h>
@@ -105,13 +105,6 @@ namespace treacle
   }
 
   template <int dim>
-  std::vector<Marker<dim>>
-  Advection<dim>::move_markers() const
-  {
-    return moved_markers(old, surface_velocity, dt);
-  }
-
-  template <int dim>
   std::vector<double>
   Advection<dim>::level_set(const std::vector<Point<dim>> &x) const
   {
@@ -196,15 +189,16 @@ namespace treacle
     if (!old.material)
       return;
     const Carried             carry = carried(
-      {{&old.material->density}, {&old.material->viscosity}}, surface_velocity, dt, reach);
+      {{&old.material->density.mean}, {&old.material->viscosity.mean}}, surface_velocity, dt, reach);
     const std::vector<double> material =
       Tracer<dim>(*old.mesh).evaluate(from, carry.fields, guesses);
     state.material.emplace(mesh.nodes);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
-        state.material->density.local_element(node)   = material[2 * node];
-        state.material->viscosity.local_element(node) = material[2 * node + 1];
+        state.material->density.mean.local_element(node)   = material[2 * node];
+        state.material->viscosity.mean.local_element(node) = material[2 * node + 1];
       }
+    state.material->points = to_owners(mesh, move_material());
     state.material->update_ghost_values();
   }
 

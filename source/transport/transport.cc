@@ -3,9 +3,10 @@
 
 #include <treacle/base/exchange.h>
 #include <treacle/fields/liquid_volume.h>
+#include <treacle/fields/moved_points.h>
 #include <treacle/surface/emission.h>
 #include <treacle/surface/extrapolation.h>
-#include <treacle/surface/material_extension.h>
+#include <treacle/surface/carried_material.h>
 #include <treacle/transport/remesh.h>
 #include <treacle/transport/transport.h>
 #include <treacle/transport/velocity_in_time.h>
@@ -60,8 +61,7 @@ namespace treacle
     if (!tracking.keeps_volume() || missing < least_lost * wanted)
       missing = 0;
     auto surface = tracking.settle(*next, *data, wanted - missing);
-    if (next->material)
-      extend_material(*next, *data);
+    settle_material(*next, *data);
     liquid = {std::move(data), std::move(next), std::move(surface), nullptr};
     return {rebuilt, emitted, std::move(lost), missing, (won + missing) / wanted};
   }
@@ -98,19 +98,25 @@ namespace treacle
 
   template <int dim>
   void
-  Transport<dim>::displace(Liquid<dim>      &liquid,
-                           const State<dim> &pushed,
-                           const double      swept,
-                           const double      volume) const
+  Transport<dim>::displace(Liquid<dim>       &liquid,
+                           const Liquid<dim> &pushed,
+                           const double       swept,
+                           const double       volume) const
   {
     State<dim>  &state = *liquid.state;
     const double reach = time_step.reach(state, *liquid.domain);
-    const double flux  = flux_through_surface(scene, liquid.surface->facets, pushed);
-    if (flux <= 0)
+    const double flux  = flux_through_surface(scene, liquid.surface->facets, *pushed.state);
+    const double speed = maximum_speed(*pushed.state, *pushed.domain);
+    if (flux <= 0 || speed <= 0)
       return;
-    const double         dt = std::min(swept / flux, 3.);
-    const Advection<dim> advection(
-      prm.advection, pushed, *liquid.domain, *liquid.surface, BackwardDifference(dt, pushed));
+    // no further than a step may go: what is left to be pushed out then is made up for evenly
+    const double dt =
+      std::min(swept / flux, prm.time_step.cfl * state.mesh->finest_size() / speed);
+    const Advection<dim> advection(prm.advection,
+                                   *pushed.state,
+                                   *pushed.domain,
+                                   *pushed.surface,
+                                   BackwardDifference(dt, *pushed.state));
     const std::vector<double> phi = advection.level_set(
       {state.mesh->node_position.begin(),
        state.mesh->node_position.begin() + state.mesh->n_owned_nodes()});
@@ -120,7 +126,8 @@ namespace treacle
     liquid.surface =
       tracking.advance(state, *liquid.mesh_data, time_step.reach_of_distance(reach, *state.mesh), volume);
     if (state.material)
-      extend_material(state, *liquid.mesh_data);
+      state.material->points = to_owners(*state.mesh, advection.move_material());
+    settle_material(state, *liquid.mesh_data);
     liquid.domain.reset();
   }
 
@@ -159,6 +166,7 @@ namespace treacle
                       time_step.reach(old, *liquid.domain),
                       Advection<dim>::SurfaceMotion::none);
     next->markers             = std::move(old.markers);
+    settle_material(*next, *liquid.mesh_data);
     liquid.domain.reset();
     liquid.state = std::move(next);
   }
@@ -212,11 +220,12 @@ namespace treacle
 
   template <int dim>
   void
-  Transport<dim>::extend_material(State<dim> &state, const MeshData<dim> &data) const
+  Transport<dim>::settle_material(State<dim> &state, const MeshData<dim> &data) const
   {
-    treacle::extend_material(state,
-                             data,
-                             static_cast<unsigned int>(std::ceil(prm.time_step.cfl)) + 3);
+    if (state.material)
+      treacle::settle_material(state,
+                               data,
+                               static_cast<unsigned int>(std::ceil(prm.time_step.cfl)) + 3);
   }
 
   template class Transport<2>;

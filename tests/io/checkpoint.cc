@@ -6,6 +6,7 @@
 
 #include <treacle/base/exceptions.h>
 #include <treacle/base/exchange.h>
+#include <treacle/fields/moved_points.h>
 #include <treacle/io/checkpoint.h>
 #include <treacle/io/row_order.h>
 
@@ -152,10 +153,24 @@ check_errors(const MPI_Comm &comm)
   refuse<2>(comm, tests::ball_mesh<2>());
   fs::resize_file("out2/checkpoint/leaves", 36);
   refuse<2>(comm, tests::ball_mesh<2>());
-  replace_in_info("Format = 5", "Format = 4");
+  replace_in_info("Format = 6", "Format = 5");
   refuse<2>(comm, tests::ball_mesh<2>());
   checkpoint<2>(comm).remove();
   refuse<2>(comm, tests::ball_mesh<2>());
+}
+
+/// The vectors of a material.
+template <typename Material>
+auto
+parts_of(Material &material)
+{
+  auto &[density, viscosity, points] = material;
+  return std::array<decltype(std::ref(density.mean)), 6>{{std::ref(density.mean),
+                                                          std::ref(density.least),
+                                                          std::ref(density.largest),
+                                                          std::ref(viscosity.mean),
+                                                          std::ref(viscosity.least),
+                                                          std::ref(viscosity.largest)}};
 }
 
 /// An order that one rank on a single cell could not tell: a checkpoint of a run with
@@ -167,8 +182,11 @@ check_all_parts(const MPI_Comm &comm, const bool at_nodes)
   const auto make = [&] {
     State<dim> state = tests::ball_state<dim>(comm);
     state.material.emplace(state.mesh->nodes);
-    state.material->density.equ(2, state.phi);
-    state.material->viscosity.equ(-3, state.phi);
+    double factor = 1;
+    for (const auto &part : parts_of(*state.material))
+      part.get().equ(++factor, state.phi);
+    for (const auto &marker : state.markers)
+      state.material->points.push_back({marker.position, marker.normal[0], marker.normal[1]});
     state.material->update_ghost_values();
     state.before.emplace();
     state.before->dt = 0.1;
@@ -191,17 +209,21 @@ check_all_parts(const MPI_Comm &comm, const bool at_nodes)
              std::signbit(a.local_element(i)) == std::signbit(b.local_element(i));
   };
   add(loaded.phi, saved.phi);
-  add(loaded.material->density, saved.material->density);
-  add(loaded.material->viscosity, saved.material->viscosity);
+  for (unsigned int k = 0; k < 6; ++k)
+    add(parts_of(*loaded.material)[k], parts_of(*saved.material)[k]);
+  const auto &points = loaded.material->points, &saved_points = saved.material->points;
+  same = same && points.size() == saved_points.size();
+  for (unsigned int k = 0; k < points.size(); ++k)
+    same = same && points[k].numbers() == saved_points[k].numbers();
   if (at_nodes)
     for (unsigned int d = 0; d < dim; ++d)
       add(loaded.before->v->component[d], saved.before->v->component[d]);
   else
     add(*loaded.before->u, *saved.before->u);
-  // numbers: phi, v, density, viscosity (and v) of each node, u of each face, pressures
+  // numbers: phi, v, material (and v) of each node, u of each face, pressures
   const Mesh<dim>    &mesh = *saved.mesh;
   const std::uint64_t n_numbers =
-    mesh.nodes->size() * (3 + (at_nodes ? 2 : 1) * dim) +
+    mesh.nodes->size() * (7 + (at_nodes ? 2 : 1) * dim) +
     mesh.faces->size() * (at_nodes ? 1 : 2) + mesh.cells->size();
   const bool is_small =
     std::filesystem::file_size("out" + std::to_string(dim) + "/checkpoint/numbers") == 8 * n_numbers;

@@ -11,7 +11,8 @@
 #include "../tests.h"
 #include "../run_scene.h"
 
-#include <treacle/surface/material_extension.h>
+#include <treacle/fields/moved_points.h>
+#include <treacle/surface/carried_material.h>
 #include <treacle/transport/advection.h>
 #include <treacle/transport/initial_mesh.h>
 #include <treacle/transport/remesh.h>
@@ -99,8 +100,9 @@ carry(const MPI_Comm &comm, const unsigned int level)
   for (LocalIndex node = 0; node < state->mesh->n_owned_nodes(); ++node)
     state->phi.local_element(node) = scene.liquid_distance(state->mesh->node_position[node]);
   state->phi.update_ghost_values();
-  set_initial_material(*state, scene);
-  extend_material(*state, MeshData<dim>(*state->mesh, scene), 6);
+  const MeshData<dim> data(*state->mesh, scene);
+  set_initial_material(*state, data);
+  settle_material(*state, data, 6);
   const unsigned int n_steps = 10;
   Tensor<1, dim>     travelled;
   for (unsigned int step = 0; step < n_steps; ++step)
@@ -120,7 +122,7 @@ carry(const MPI_Comm &comm, const unsigned int level)
       const auto mesh = mesh_for_next_surface(
         *state, scene, surface, advection, advection.move_surface(surface.facets.positions), {}, 0.02);
       auto next = std::make_unique<State<dim>>(advection.advance(mesh, 0.3));
-      extend_material(*next, MeshData<dim>(*mesh, scene), 6);
+      settle_material(*next, MeshData<dim>(*mesh, scene), 6);
       state = std::move(next);
     }
   travelled[0] = 0.02 * n_steps;

@@ -10,6 +10,7 @@
 
 #include <treacle/surface/redistance.h>
 #include <treacle/fields/liquid_volume.h>
+#include <treacle/fields/moved_points.h>
 #include <treacle/surface/surface.h>
 #include <treacle/transport/advection.h>
 #include <treacle/transport/initial_mesh.h>

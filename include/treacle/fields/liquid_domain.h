@@ -93,6 +93,10 @@ namespace treacle
     double
     total_volume() const;
 
+    /// The same with walls, solids and emitters that do not move.
+    std::shared_ptr<const LiquidDomain>
+    with_walls_at_rest() const;
+
   private:
     void
     find_emitters(const double time);

@@ -4,10 +4,14 @@
 #ifndef treacle_fields_marker_h
 #define treacle_fields_marker_h
 
-#include <treacle/mesh/locator.h>
+#include <deal.II/base/point.h>
+
+#include <array>
 
 namespace treacle
 {
+  using namespace dealii;
+
   /// A massless point on the surface. It remembers where the surface is better than
   /// phi does, and its normal which side of it is liquid.
   template <int dim>
@@ -43,15 +47,6 @@ namespace treacle
       return marker;
     }
   };
-
-  template <int dim>
-  std::vector<Point<dim>>
-  positions(const std::vector<Marker<dim>> &markers);
-
-  /// Each marker on the rank that owns the cell it lies in, of a lattice the leaf. Collective.
-  template <int dim>
-  std::vector<Marker<dim>>
-  to_owners(const Mesh<dim> &mesh, const std::vector<Marker<dim>> &markers);
 } // namespace treacle
 
 #endif

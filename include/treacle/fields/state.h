@@ -5,6 +5,7 @@
 #define treacle_fields_state_h
 
 #include <treacle/fields/marker.h>
+#include <treacle/fields/material_point.h>
 #include <treacle/mesh/mesh.h>
 
 #include <memory>
@@ -12,11 +13,42 @@
 
 namespace treacle
 {
-  /// Material that the liquid carries along, at nodes.
+  /// A property of the liquid that it carries along.
+  struct CarriedField
+  {
+    Vector mean;           ///< at nodes
+    Vector least, largest; ///< of the material points around a node; the mean where there are none
+
+    explicit CarriedField(const std::shared_ptr<const Utilities::MPI::Partitioner> &nodes)
+      : mean(nodes)
+      , least(nodes)
+      , largest(nodes)
+    {}
+
+    /// The same for all that is about an owned node.
+    void
+    set(const LocalIndex node, const double value)
+    {
+      for (Vector *v : {&mean, &least, &largest})
+        v->local_element(node) = value;
+    }
+
+    void
+    update_ghost_values() const
+    {
+      for (const Vector *v : {&mean, &least, &largest})
+        v->update_ghost_values();
+    }
+  };
+
+  /// Material that the liquid carries along: at nodes, and where it jumps by points.
+  template <int dim>
   struct CarriedMaterial
   {
-    Vector density;   ///< kg/m^dim
-    Vector viscosity; ///< Pa s
+    CarriedField density;   ///< kg/m^dim
+    CarriedField viscosity; ///< Pa s
+    /// Each on the rank that owns the cell it lies in (of a lattice: the leaf).
+    std::vector<MaterialPoint<dim>> points;
 
     explicit CarriedMaterial(const std::shared_ptr<const Utilities::MPI::Partitioner> &nodes)
       : density(nodes)
@@ -67,7 +99,7 @@ namespace treacle
     NodeVector<dim>   v;        ///< node velocity, for tracing and output (m/s)
     Vector            pressure; ///< at dual centres, of the last projection (Pa)
 
-    std::optional<CarriedMaterial>     material; ///< if it is advected
+    std::optional<CarriedMaterial<dim>> material; ///< if it is advected
     std::optional<VelocityBefore<dim>> before;   ///< if the time scheme needs it
     /// Each on the rank that owns the cell it lies in (of a lattice: the leaf); none without marker level set.
     std::vector<Marker<dim>> markers;

@@ -9,10 +9,9 @@
 
 namespace treacle
 {
-  /// In cells in which the scene's formula for the viscosity jumps, that of the cell (Pa s)
-  /// becomes a mean over the cell's liquid, softer than the harmonic one. Without effect on
-  /// material that is carried along. Throws a UserError on all ranks where a viscosity makes no
-  /// sense. Collective.
+  /// In cells in which the viscosity jumps, by the scene's formula or in the material that the liquid
+  /// carries, that of the cell (Pa s) becomes a mean over the cell's liquid, softer than the harmonic
+  /// one. Throws a UserError on all ranks where a viscosity makes no sense. Collective.
   template <int dim>
   void
   soften_jumps(const Scene<dim>          &scene,

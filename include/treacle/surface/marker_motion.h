@@ -13,6 +13,11 @@ namespace treacle
   template <int dim>
   std::vector<Marker<dim>>
   moved_markers(const State<dim> &state, const NodeVector<dim> &velocity, const double dt);
+
+  /// The same of the material points of a state that carries material.
+  template <int dim>
+  std::vector<MaterialPoint<dim>>
+  moved_material(const State<dim> &state, const NodeVector<dim> &velocity, const double dt);
 } // namespace treacle
 
 #endif

@@ -7,6 +7,7 @@
 #include <treacle/fields/backward_difference.h>
 #include <treacle/fields/liquid_domain.h>
 #include <treacle/mesh/tracer.h>
+#include <treacle/surface/marker_motion.h>
 #include <treacle/surface/surface_geometry.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -71,7 +72,17 @@ namespace treacle
 
     /// The markers after dt, still on the ranks they came from.
     std::vector<Marker<dim>>
-    move_markers() const;
+    move_markers() const
+    {
+      return moved_markers(old, surface_velocity, dt);
+    }
+
+    /// The same of the material points of a state that has some.
+    std::vector<MaterialPoint<dim>>
+    move_material() const
+    {
+      return moved_material(old, surface_velocity, dt);
+    }
 
     /// phi at points of the new time.
     std::vector<double>

@@ -57,13 +57,14 @@ namespace treacle
                 const double              volume,
                 Timing                   &timing) const;
 
-    /// The surface moves on by @p pushed.v, and nothing else, until it has swept a volume (in
-    /// about a second); with volume correction to @p volume in all (m^dim).
+    /// The surface moves on by the velocity of @p pushed, and nothing else, until it has swept a volume
+    /// (in about a second), or gone as far as in a step; with volume correction to @p volume in all
+    /// (m^dim).
     void
-    displace(Liquid<dim>      &liquid,
-             const State<dim> &pushed,
-             const double      swept,
-             const double      volume) const;
+    displace(Liquid<dim>       &liquid,
+             const Liquid<dim> &pushed,
+             const double       swept,
+             const double       volume) const;
 
     /// Velocity and material move on, but neither surface nor mesh.
     void
@@ -87,9 +88,9 @@ namespace treacle
     void
     extend_velocity(Liquid<dim> &liquid) const;
 
-    /// The same of material.
+    /// Material that is carried, by its points where it jumps, and as far into the air.
     void
-    extend_material(State<dim> &state, const MeshData<dim> &data) const;
+    settle_material(State<dim> &state, const MeshData<dim> &data) const;
 
   private:
     /// State of the next time on a mesh, without markers.

@@ -5,13 +5,16 @@ for scripts/verify."""
 
 import math
 
+import numpy
+
 from treacle.verification.cases import EULER, Case, Program
-from treacle.verification.measures import at, last, rate
+from treacle.verification.measures import TIME, at, last, rate
 
 U = "Probe 1 velocity x (m/s)"
 V = "Probe 1 velocity y (m/s)"
 STRESS = "Solid 1 force x (N)"
 
+THIN_LAYER = {"Liquid 1/Viscosity": "0.01", "End time": "6", "Frame interval": "6"}
 ARMADILLO = {"Liquid 1/Shape": "triangle mesh", "Liquid 1/File": "results/meshes/armadillo.off",
              "Liquid 1/Centre at origin": "true", "Liquid 1/Rotation axis": "1, 0, 0",
              "Liquid 1/Rotation angle": "-90", "Liquid 1/Scale": "0.0042",
@@ -52,6 +55,15 @@ def layered(stress, width=1):
     return {"stress": (last(STRESS), -stress * width), "u": (last(U), 0.909090909)}
 
 
+def growth(rate, end):
+    """Of the velocity, as its energy tells, from a tenth of the time on."""
+    def measured(results):
+        late = results[TIME] > 0.1 * end
+        energy = results["Nodal kinetic energy (J)"][late]
+        return numpy.polyfit(results[TIME][late], numpy.log(energy), 1)[0] / 2
+    return {"growth": (measured, rate)}
+
+
 CONSERVED = {"angular momentum": 1e-10, "energy": 1e-10, "momentum": 1e-10}
 FACES = {"mean": 0.01, "worst face": 0.05}
 FACES_3D = {"mean": 0.05, "worst face": 0.2}  # 5 leaves in the radius, at most
@@ -88,4 +100,6 @@ CLOSED_CASES = {
     "B7 viscosity 1": Case("two_viscosities", 4, 0.05, ONE_VISCOSITY, {"Material/Viscosity": 1},
                            in_time=({},)),
     "B8": Case("sphere_drag", 5, 1e-3, DRAG, {"Mesh/Interior level": 2, "Mesh/Air level": 2}, order=None),
+    "B9": Case("rayleigh_taylor", 1, 2, growth(0.0109031, 60), tolerance=0.03, order=None),
+    "B9 viscosity 0.01": Case("rayleigh_taylor", 1, 0.2, growth(0.103834, 6), THIN_LAYER, 0.03, None),
 }

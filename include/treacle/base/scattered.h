@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_base_scattered_h
+#define treacle_base_scattered_h
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace treacle
+{
+  /// A number in [0, 1) from an integer, the same everywhere (splitmix64).
+  inline double
+  scattered(std::uint64_t z)
+  {
+    z += 0x9e3779b97f4a7c15ull;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+  }
+
+  /// Such a number for a place, by the number of @p size in its coordinates: the same on all ranks.
+  template <typename Position>
+  double
+  scattered_at(const Position &x, const double size)
+  {
+    std::uint64_t place = 0;
+    for (unsigned int d = 0; d < Position::dimension; ++d)
+      place = 0x100000001b3ull * place + static_cast<std::int64_t>(std::floor(x[d] / size));
+    return scattered(place);
+  }
+
+  /// Point k of an even sequence in the unit cube (Roberts 2018: steps by the powers of the root of
+  /// x^(n+1) = x + 1).
+  template <unsigned int n>
+  std::array<double, n>
+  even_point(const double start, const unsigned int k)
+  {
+    constexpr double      roots[] = {1.618033988749895, 1.324717957244746, 1.220744084605760};
+    std::array<double, n> point;
+    double                power = 1, whole;
+    for (double &x : point)
+      {
+        power *= roots[n - 1];
+        x = std::modf(start + k / power, &whole);
+      }
+    return point;
+  }
+} // namespace treacle
+
+#endif
