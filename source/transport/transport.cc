@@ -106,12 +106,9 @@ namespace treacle
     State<dim>  &state = *liquid.state;
     const double reach = time_step.reach(state, *liquid.domain);
     const double flux  = flux_through_surface(scene, liquid.surface->facets, *pushed.state);
-    const double speed = maximum_speed(*pushed.state, *pushed.domain);
-    if (flux <= 0 || speed <= 0)
+    if (flux <= 0)
       return;
-    // no further than a step may go: what is left to be pushed out then is made up for evenly
-    const double dt =
-      std::min(swept / flux, prm.time_step.cfl * state.mesh->finest_size() / speed);
+    const double         dt = std::min(swept / flux, 3.);
     const Advection<dim> advection(prm.advection,
                                    *pushed.state,
                                    *pushed.domain,

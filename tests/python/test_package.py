@@ -196,7 +196,7 @@ class SweepTest(unittest.TestCase):
 
     def test_verdict(self):
         scene = next(s for s in map(Scene, range(50)) if s.is_closed() and s.speed == 0)
-        table = {"Potential energy (J)": [10, 4, 3], "Kinetic energy (J)": [0, 4, 6], "Volume drift": [0, 0, -0.25],
+        table = {"Potential energy (J)": [10, 4, 3], "Nodal kinetic energy (J)": [0, 4, 6], "Volume drift": [0, 0, -0.25],
                  "Drift before correction": [0, -0.5, 0], "Repetitions": [0, 1, 2], "Fallbacks": [0, 0, 1],
                  "Maximum speed (m/s)": [0, 2 * math.sqrt(2 * 9.81), 1]}
         found = Verdict(scene, table)

@@ -58,8 +58,7 @@ namespace treacle
                 Timing                   &timing) const;
 
     /// The surface moves on by the velocity of @p pushed, and nothing else, until it has swept a volume
-    /// (in about a second), or gone as far as in a step; with volume correction to @p volume in all
-    /// (m^dim).
+    /// (in about a second); with volume correction to @p volume in all (m^dim).
     void
     displace(Liquid<dim>       &liquid,
              const Liquid<dim> &pushed,

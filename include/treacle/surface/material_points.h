@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_surface_material_points_h
+#define treacle_surface_material_points_h
+
+#include <treacle/fields/carried_in_cell.h>
+#include <treacle/fields/mesh_data.h>
+#include <treacle/mesh/locator.h>
+
+namespace treacle
+{
+  /// The material points of a state: they lie about where its material jumps, and tell the nodes there
+  /// what it is. Members are collective where nothing else is said.
+  template <int dim>
+  class MaterialPoints
+  {
+  public:
+    /// Points that left the liquid are dropped; nodes about jumps take the mean of those about them, the
+    /// others what they have, within bounds that the points set.
+    MaterialPoints(State<dim> &state, const MeshData<dim> &data);
+
+    /// Does a node know its material? Not collective.
+    bool
+    is_known(const LocalIndex node) const
+    {
+      return state.phi.local_element(node) < 0 || weight.local_element(node) > 0;
+    }
+
+    /// Gives a new point at a position, in a cell and at barycentric coordinates there.
+    using Make =
+      std::function<MaterialPoint<dim>(const Point<dim> &, LocalIndex, const VertexValues<dim> &)>;
+
+    /// As many points as are wanted in the cells about jumps, and none elsewhere. Nodes learn of new
+    /// ones next time.
+    void
+    reseed(const Make &make);
+
+    /// What a point in a cell is made of, where all its nodes have a material. Not collective.
+    MaterialPoint<dim>
+    point(const Point<dim> &x, const LocalIndex cell, const VertexValues<dim> &lambda) const
+    {
+      return {x,
+              density.in_cell({mesh, density.field, cell}, lambda),
+              viscosity.in_cell({mesh, viscosity.field, cell}, lambda)};
+    }
+
+  private:
+    /// One of the properties that make a material.
+    struct Property
+    {
+      CarriedField &field;
+      double MaterialPoint<dim>::*of_point;
+      /// Largest less smallest value anywhere.
+      double spread = 0;
+
+      bool
+      jumps(const double least, const double largest) const
+      {
+        return largest > least_jump * least ||
+               largest - least > std::max(0.25 * spread, 1e-9 * largest); // more than roundoff
+      }
+
+      double
+      in_cell(const CarriedInCell<dim> &cell, const VertexValues<dim> &lambda) const
+      {
+        return jumps(cell.least, cell.largest) ? cell.sharp(lambda) : cell.smooth(lambda);
+      }
+    };
+
+    void
+    locate();
+
+    double
+    spread_of(const Property &property) const;
+
+    /// About jumps with P1 weights.
+    void
+    give_to_nodes(const Property &property);
+
+    /// About jumps a mean over neighbours as well: where the middle is must not depend on how the points
+    /// happen to lie, for cells of either kind strewn among those of the other are hard to solve for.
+    void
+    smooth(const Property &property);
+
+    /// 1 for these, also ghosts.
+    Vector
+    cells_about_jumps() const;
+
+    bool
+    has_jump(const LocalIndex cell) const;
+
+    /// Crowded cells keep a part of their points that depends on their places alone.
+    void
+    thin(const Vector &is_wanted);
+
+    /// Where points are sown in the liquid of a cell.
+    std::vector<VertexValues<dim>>
+    places_in(const LocalIndex cell) const;
+
+    State<dim>                &state;
+    const MeshData<dim>       &data;
+    const Mesh<dim>           &mesh;
+    CarriedMaterial<dim>      &material;
+    const std::vector<double> &solid_distance;
+    Property                   density, viscosity;
+    std::vector<Location<dim>> place;  ///< of the points
+    Vector                     weight; ///< of the points around each node
+    Vector                     count;  ///< of points in each cell
+  };
+} // namespace treacle
+
+#endif

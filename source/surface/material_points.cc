@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/scattered.h>
+#include <treacle/fields/moved_points.h>
+#include <treacle/mesh/surface_size.h>
+#include <treacle/surface/material_points.h>
+
+#include <numeric>
+
+namespace treacle
+{
+  namespace
+  {
+    /// Material points in a cell about a jump.
+    template <int dim>
+    constexpr unsigned int points_per_cell = dim == 2 ? 6 : 4;
+    /// Rings of cells about a jump that have points.
+    constexpr unsigned int n_rings = 2;
+
+    /// Owned and ghost elements.
+    void
+    fill(Vector &v, const double value)
+    {
+      v.zero_out_ghost_values();
+      const unsigned int n = v.locally_owned_size() + v.get_partitioner()->n_ghost_indices();
+      for (unsigned int i = 0; i < n; ++i)
+        v.local_element(i) = value;
+    }
+
+    template <int dim>
+    double
+    value_at(const VertexValues<dim> &values, const VertexValues<dim> &lambda)
+    {
+      return std::inner_product(values.begin(), values.end(), lambda.begin(), 0.);
+    }
+  } // namespace
+
+  template <int dim>
+  MaterialPoints<dim>::MaterialPoints(State<dim> &state, const MeshData<dim> &data)
+    : state(state)
+    , data(data)
+    , mesh(data.mesh)
+    , material(*state.material)
+    , solid_distance(data.solid_distance(state.time))
+    , density{material.density, &MaterialPoint<dim>::density}
+    , viscosity{material.viscosity, &MaterialPoint<dim>::viscosity}
+    , weight(mesh.nodes)
+    , count(mesh.cells)
+  {
+    locate();
+    for (Property *property : {&density, &viscosity})
+      {
+        property->spread = spread_of(*property);
+        give_to_nodes(*property);
+        smooth(*property);
+      }
+  }
+
+  template <int dim>
+  void
+  MaterialPoints<dim>::locate()
+  {
+    std::vector<MaterialPoint<dim>> kept;
+    for (const MaterialPoint<dim> &point : material.points)
+      {
+        const Location<dim> found = mesh.locator().locate_here(point.position);
+        if (found.cell == invalid)
+          continue;
+        const double reach = 0.5 * surface_size_of_cell(mesh, found.cell);
+        if (value_at<dim>(mesh.values(found.cell, state.phi), found.lambda) > reach ||
+            value_at<dim>(mesh.values(found.cell, solid_distance), found.lambda) < -reach)
+          continue;
+        kept.push_back(point);
+        place.push_back(found);
+        count.local_element(found.cell) += 1;
+        for (unsigned int i = 0; i <= dim; ++i)
+          weight.local_element(mesh.cell_nodes[found.cell][i]) += found.lambda[i];
+      }
+    material.points = std::move(kept);
+    for (Vector *v : {&count, &weight})
+      {
+        v->compress(VectorOperation::add);
+        v->update_ghost_values();
+      }
+  }
+
+  template <int dim>
+  double
+  MaterialPoints<dim>::spread_of(const Property &property) const
+  {
+    double     least = std::numeric_limits<double>::max(), largest = -least;
+    const auto take = [&](const double value) {
+      least   = std::min(least, value);
+      largest = std::max(largest, value);
+    };
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      if (state.phi.local_element(node) < 0)
+        take(property.field.mean.local_element(node));
+    for (const MaterialPoint<dim> &point : material.points)
+      take(point.*property.of_point);
+    const MPI_Comm comm = mesh.communicator();
+    return Utilities::MPI::max(largest, comm) - Utilities::MPI::min(least, comm);
+  }
+
+  template <int dim>
+  void
+  MaterialPoints<dim>::give_to_nodes(const Property &property)
+  {
+    CarriedField &field = property.field;
+    Vector        sum(mesh.nodes);
+    fill(field.least, std::numeric_limits<double>::max());
+    fill(field.largest, -std::numeric_limits<double>::max());
+    for (unsigned int k = 0; k < place.size(); ++k)
+      for (unsigned int i = 0; i <= dim; ++i)
+        {
+          const LocalIndex node  = mesh.cell_nodes[place[k].cell][i];
+          const double     value = material.points[k].*property.of_point;
+          double &least = field.least.local_element(node), &largest = field.largest.local_element(node);
+          sum.local_element(node) += place[k].lambda[i] * value;
+          least   = std::min(least, value);
+          largest = std::max(largest, value);
+        }
+    sum.compress(VectorOperation::add);
+    field.least.compress(VectorOperation::min);
+    field.largest.compress(VectorOperation::max);
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      {
+        const double w    = weight.local_element(node);
+        double      &mean = field.mean.local_element(node);
+        double &least = field.least.local_element(node), &largest = field.largest.local_element(node);
+        if (w > 0 && property.jumps(least, largest))
+          {
+            mean = sum.local_element(node) / w;
+            continue;
+          }
+        // points on one side of a node do not see all that is about
+        if (w > 0)
+          mean = std::min(std::max(mean, 1.5 * least - 0.5 * largest), 1.5 * largest - 0.5 * least);
+        least = largest = mean;
+      }
+    field.update_ghost_values();
+  }
+
+  template <int dim>
+  void
+  MaterialPoints<dim>::smooth(const Property &property)
+  {
+    const CarriedField before = property.field;
+    before.update_ghost_values();
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      {
+        double &least   = property.field.least.local_element(node);
+        double &largest = property.field.largest.local_element(node);
+        for (const auto &neighbour : data.neighbours(node))
+          if (is_known(neighbour.node))
+            {
+              least   = std::min(least, before.least.local_element(neighbour.node));
+              largest = std::max(largest, before.largest.local_element(neighbour.node));
+            }
+        if (property.jumps(least, largest))
+          mean_of_neighbours(
+            data,
+            node,
+            [&](const LocalIndex other) { return is_known(other); },
+            [&](const LocalIndex other) { return before.mean.local_element(other); },
+            property.field.mean.local_element(node));
+        else
+          least = largest = property.field.mean.local_element(node);
+      }
+    property.field.update_ghost_values();
+  }
+
+  template <int dim>
+  Vector
+  MaterialPoints<dim>::cells_about_jumps() const
+  {
+    Vector is_wanted(mesh.cells), is_near(mesh.nodes);
+    is_near.update_ghost_values();
+    for (unsigned int ring = 0; ring <= n_rings; ++ring)
+      {
+        for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+          if (is_wanted.local_element(c) == 0)
+            is_wanted.local_element(c) =
+              ring == 0 ? has_jump(c) :
+                          std::any_of(mesh.cell_nodes[c].begin(),
+                                      mesh.cell_nodes[c].end(),
+                                      [&](const auto node) { return is_near.local_element(node) > 0; });
+        is_near.zero_out_ghost_values();
+        for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+          if (is_wanted.local_element(c) > 0)
+            for (const LocalIndex node : mesh.cell_nodes[c])
+              is_near.local_element(node) = 1;
+        is_near.compress(VectorOperation::max);
+        is_near.update_ghost_values();
+      }
+    is_wanted.update_ghost_values();
+    return is_wanted;
+  }
+
+  template <int dim>
+  bool
+  MaterialPoints<dim>::has_jump(const LocalIndex c) const
+  {
+    for (const Property *property : {&density, &viscosity})
+      {
+        double least = std::numeric_limits<double>::max(), largest = -least;
+        for (const LocalIndex node : mesh.cell_nodes[c])
+          if (is_known(node))
+            {
+              least   = std::min(least, property->field.least.local_element(node));
+              largest = std::max(largest, property->field.largest.local_element(node));
+            }
+        if (largest >= least && property->jumps(least, largest))
+          return true;
+      }
+    return false;
+  }
+
+  template <int dim>
+  void
+  MaterialPoints<dim>::thin(const Vector &is_wanted)
+  {
+    std::vector<MaterialPoint<dim>> kept;
+    for (unsigned int k = 0; k < place.size(); ++k)
+      {
+        const LocalIndex c = place[k].cell;
+        const double     n = count.local_element(c), target = points_per_cell<dim>;
+        if (is_wanted.local_element(c) > 0 &&
+            (n <= 2 * target + 2 ||
+             scattered_at(material.points[k].position, 1e-3 * surface_size_of_cell(mesh, c)) * n < target))
+          kept.push_back(material.points[k]);
+      }
+    material.points = std::move(kept);
+  }
+
+  template <int dim>
+  std::vector<VertexValues<dim>>
+  MaterialPoints<dim>::places_in(const LocalIndex c) const
+  {
+    std::uint64_t key = 0;
+    for (const LocalIndex node : mesh.cell_nodes[c])
+      key += mesh.node_key[node];
+    const VertexValues<dim>        phi = mesh.values(c, state.phi), solid = mesh.values(c, solid_distance);
+    std::vector<VertexValues<dim>> places;
+    for (unsigned int k = 0; k < points_per_cell<dim>; ++k)
+      {
+        auto cut = even_point<dim>(scattered(key), k);
+        std::sort(cut.begin(), cut.end()); // cuts of the unit interval are even in a simplex
+        VertexValues<dim> lambda;
+        for (unsigned int i = 0; i <= dim; ++i)
+          lambda[i] = (i < dim ? cut[i] : 1.) - (i > 0 ? cut[i - 1] : 0.);
+        if (value_at<dim>(phi, lambda) < 0 && value_at<dim>(solid, lambda) > 0)
+          places.push_back(lambda);
+      }
+    return places;
+  }
+
+  template <int dim>
+  void
+  MaterialPoints<dim>::reseed(const Make &make)
+  {
+    const Vector is_wanted = cells_about_jumps();
+    thin(is_wanted);
+    std::vector<MaterialPoint<dim>> seeds;
+    for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+      {
+        if (is_wanted.local_element(c) == 0)
+          continue;
+        const auto         places = places_in(c);
+        const unsigned int n      = count.local_element(c);
+        for (unsigned int k = n; 2 * n < places.size() && k < places.size(); ++k)
+          {
+            Point<dim> x;
+            for (unsigned int i = 0; i <= dim; ++i)
+              x += places[k][i] * mesh.node_position[mesh.cell_nodes[c][i]];
+            seeds.push_back(make(x, c, places[k]));
+          }
+      }
+    seeds = to_owners(mesh, seeds); // a cell may be another rank's than its leaf
+    material.points.insert(material.points.end(), seeds.begin(), seeds.end());
+  }
+
+  template class MaterialPoints<2>;
+  template class MaterialPoints<3>;
+} // namespace treacle
