@@ -124,22 +124,31 @@ namespace treacle
   {
     if (!state.material && scene.has_constant_viscosity())
       return;
-    FormulaInCells<dim> formula(scene, state);
-    const auto          soften = [&](const LocalIndex c, const auto &value) {
+    const auto soften = [&](const LocalIndex c, const auto &value) {
       viscosity[c] = mean_of_liquid(state, solid_distance, c, viscosity[c], value);
     };
-    std::string error;
-    for (LocalIndex c = 0; c < viscosity.size(); ++c)
-      if (liquid_volume[c] > 0)
-        {
-          if (!state.material)
-            keep_error(error, [&] {
-              if (formula.jumps(c))
-                soften(c, [&](const auto &lambda) { return formula.value(c, lambda); });
-            });
-          else if (const CarriedInCell<dim> carried(*state.mesh, state.material->viscosity, c); carried.jumps())
-            soften(c, [&](const auto &lambda) { return carried.sharp(lambda); });
-        }
+    const auto for_each_cell = [&](const auto &visit) {
+      for (LocalIndex c = 0; c < viscosity.size(); ++c)
+        if (liquid_volume[c] > 0)
+          visit(c);
+    };
+    if (state.material)
+      {
+        for_each_cell([&](const LocalIndex c) {
+          const CarriedInCell<dim> carried(*state.mesh, state.material->viscosity, c);
+          if (carried.jumps())
+            soften(c, [&](const auto &lambda) { return carried.value(lambda); });
+        });
+        return;
+      }
+    std::string         error;
+    FormulaInCells<dim> formula(scene, state);
+    for_each_cell([&](const LocalIndex c) {
+      keep_error(error, [&] {
+        if (formula.jumps(c))
+          soften(c, [&](const auto &lambda) { return formula.value(c, lambda); });
+      });
+    });
     throw_first(state.mesh->communicator(), error);
   }
 

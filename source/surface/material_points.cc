@@ -18,6 +18,20 @@ namespace treacle
     /// Rings of cells about a jump that have points.
     constexpr unsigned int n_rings = 2;
 
+    double
+    log_of(const double value)
+    {
+      return std::log(std::max(value, 1e-300));
+    }
+
+    /// Of the mean of logarithms and of their squares. The variance of two values is the product; that of
+    /// values that are spread evenly between them is a third of it.
+    bool
+    has_two_values(const double least, const double largest, const double mean, const double squares)
+    {
+      return squares - mean * mean > 0.6 * (mean - log_of(least)) * (log_of(largest) - mean);
+    }
+
     /// Owned and ghost elements.
     void
     fill(Vector &v, const double value)
@@ -46,6 +60,7 @@ namespace treacle
     , density{material.density, &MaterialPoint<dim>::density}
     , viscosity{material.viscosity, &MaterialPoint<dim>::viscosity}
     , weight(mesh.nodes)
+    , known(mesh.nodes)
     , count(mesh.cells)
   {
     locate();
@@ -74,15 +89,34 @@ namespace treacle
         kept.push_back(point);
         place.push_back(found);
         count.local_element(found.cell) += 1;
-        for (unsigned int i = 0; i <= dim; ++i)
-          weight.local_element(mesh.cell_nodes[found.cell][i]) += found.lambda[i];
       }
     material.points = std::move(kept);
-    for (Vector *v : {&count, &weight})
+    count.compress(VectorOperation::add);
+    count.update_ghost_values();
+    for (const Location<dim> &location : place)
       {
-        v->compress(VectorOperation::add);
-        v->update_ghost_values();
+        const VertexValues<dim> w = weights_of(location);
+        for (unsigned int i = 0; i <= dim; ++i)
+          weight.local_element(mesh.cell_nodes[location.cell][i]) += w[i];
       }
+    weight.compress(VectorOperation::add);
+    // liquid may have come where nothing brought its material
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      known.local_element(node) =
+        weight.local_element(node) > 0 ||
+        (state.phi.local_element(node) < 0 && material.density.mean.local_element(node) > 0);
+    known.update_ghost_values();
+  }
+
+  template <int dim>
+  VertexValues<dim>
+  MaterialPoints<dim>::weights_of(const Location<dim> &location) const
+  {
+    const double      part = mesh.cell_volume[location.cell] / count.local_element(location.cell);
+    VertexValues<dim> w;
+    for (unsigned int i = 0; i <= dim; ++i)
+      w[i] = location.lambda[i] > 1e-9 ? part * location.lambda[i] : 0.;
+    return w;
   }
 
   template <int dim>
@@ -95,7 +129,7 @@ namespace treacle
       largest = std::max(largest, value);
     };
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      if (state.phi.local_element(node) < 0)
+      if (state.phi.local_element(node) < 0 && is_known(node))
         take(property.field.mean.local_element(node));
     for (const MaterialPoint<dim> &point : material.points)
       take(point.*property.of_point);
@@ -108,35 +142,42 @@ namespace treacle
   MaterialPoints<dim>::give_to_nodes(const Property &property)
   {
     CarriedField &field = property.field;
-    Vector        sum(mesh.nodes);
+    Vector        sum(mesh.nodes), logarithms(mesh.nodes), squares(mesh.nodes);
     fill(field.least, std::numeric_limits<double>::max());
     fill(field.largest, -std::numeric_limits<double>::max());
     for (unsigned int k = 0; k < place.size(); ++k)
-      for (unsigned int i = 0; i <= dim; ++i)
-        {
-          const LocalIndex node  = mesh.cell_nodes[place[k].cell][i];
-          const double     value = material.points[k].*property.of_point;
-          double &least = field.least.local_element(node), &largest = field.largest.local_element(node);
-          sum.local_element(node) += place[k].lambda[i] * value;
-          least   = std::min(least, value);
-          largest = std::max(largest, value);
-        }
-    sum.compress(VectorOperation::add);
+      {
+        const VertexValues<dim> w     = weights_of(place[k]);
+        const double            value = material.points[k].*property.of_point, logarithm = log_of(value);
+        for (unsigned int i = 0; i <= dim; ++i)
+          {
+            const LocalIndex node = mesh.cell_nodes[place[k].cell][i];
+            double &least = field.least.local_element(node), &largest = field.largest.local_element(node);
+            sum.local_element(node) += w[i] * value;
+            logarithms.local_element(node) += w[i] * logarithm;
+            squares.local_element(node) += w[i] * logarithm * logarithm;
+            least   = std::min(least, value);
+            largest = std::max(largest, value);
+          }
+      }
+    for (Vector *v : {&sum, &logarithms, &squares})
+      v->compress(VectorOperation::add);
     field.least.compress(VectorOperation::min);
     field.largest.compress(VectorOperation::max);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
-        const double w    = weight.local_element(node);
-        double      &mean = field.mean.local_element(node);
+        double &mean = field.mean.local_element(node);
         double &least = field.least.local_element(node), &largest = field.largest.local_element(node);
-        if (w > 0 && property.jumps(least, largest))
+        const auto   part = [&](const Vector &v) { return v.local_element(node) / weight.local_element(node); };
+        if (weight.local_element(node) > 0 && property.jumps(least, largest) &&
+            has_two_values(least, largest, part(logarithms), part(squares)))
           {
-            mean = sum.local_element(node) / w;
+            mean = std::min(std::max(part(sum), least), largest);
             continue;
           }
         // points on one side of a node do not see all that is about
-        if (w > 0)
-          mean = std::min(std::max(mean, 1.5 * least - 0.5 * largest), 1.5 * largest - 0.5 * least);
+        if (weight.local_element(node) > 0)
+          mean = std::min(std::max({mean, 1.5 * least - 0.5 * largest, 0.5 * least}), 1.5 * largest - 0.5 * least);
         least = largest = mean;
       }
     field.update_ghost_values();
@@ -150,23 +191,19 @@ namespace treacle
     before.update_ghost_values();
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
-        double &least   = property.field.least.local_element(node);
-        double &largest = property.field.largest.local_element(node);
+        TwoValues two;
         for (const auto &neighbour : data.neighbours(node))
-          if (is_known(neighbour.node))
-            {
-              least   = std::min(least, before.least.local_element(neighbour.node));
-              largest = std::max(largest, before.largest.local_element(neighbour.node));
-            }
-        if (property.jumps(least, largest))
-          mean_of_neighbours(
-            data,
-            node,
-            [&](const LocalIndex other) { return is_known(other); },
-            [&](const LocalIndex other) { return before.mean.local_element(other); },
-            property.field.mean.local_element(node));
-        else
-          least = largest = property.field.mean.local_element(node);
+          two.add(before.least.local_element(neighbour.node), before.largest.local_element(neighbour.node));
+        if (!two.exist())
+          continue;
+        property.field.least.local_element(node)   = two.least();
+        property.field.largest.local_element(node) = two.largest();
+        mean_of_neighbours(
+          data,
+          node,
+          [&](const LocalIndex other) { return is_known(other); },
+          [&](const LocalIndex other) { return before.mean.local_element(other); },
+          property.field.mean.local_element(node));
       }
     property.field.update_ghost_values();
   }
@@ -245,11 +282,7 @@ namespace treacle
     std::vector<VertexValues<dim>> places;
     for (unsigned int k = 0; k < points_per_cell<dim>; ++k)
       {
-        auto cut = even_point<dim>(scattered(key), k);
-        std::sort(cut.begin(), cut.end()); // cuts of the unit interval are even in a simplex
-        VertexValues<dim> lambda;
-        for (unsigned int i = 0; i <= dim; ++i)
-          lambda[i] = (i < dim ? cut[i] : 1.) - (i > 0 ? cut[i - 1] : 0.);
+        const VertexValues<dim> lambda = even_point_in_simplex<dim>(scattered(key), k);
         if (value_at<dim>(phi, lambda) < 0 && value_at<dim>(solid, lambda) > 0)
           places.push_back(lambda);
       }

@@ -3,7 +3,8 @@
 
 // A ball of two halves, one light and thin, one heavy and thick, turns about its centre, rigidly and many
 // times: the jump stays within a part of a leaf of where it belongs, and neither half grows, on 1, 2
-// and 3 ranks. Argument: level, steps a turn, turns.
+// and 3 ranks. At rest, a viscosity that is steep but smooth is left alone, and so is the middle of three layers.
+// Argument: level, steps a turn, turns.
 
 #include "../liquid.h"
 #include "../run_scene.h"
@@ -96,6 +97,53 @@ turn(const MPI_Comm    &comm,
     }
 }
 
+/// By which factor the viscosity of a cell is off at most, of liquid at rest; cells at the surface, and those
+/// closer than @p margin leaves to heights where it jumps, do not count.
+template <int dim>
+void
+rest(const MPI_Comm            &comm,
+     const std::string         &name,
+     const std::string         &formula,
+     const std::vector<double> &jumps,
+     const double               margin)
+{
+  const auto prm = parse<dim>("subsection Mesh\nset Surface level = 4\nset Interior level = 4\nset Air level = 4\n"
+                              "end\nsubsection Material\nset Transport = advected\nset Viscosity = " +
+                                formula + "\nend\nsubsection Liquid 1\nset Radius = 0.4\nset Centre = 0.5, 0.5" +
+                                (dim == 2 ? "" : ", 0.5") + "\nend\n",
+                              0,
+                              1);
+  const Scene<dim>                 scene(prm.scene);
+  typename Octree<dim>::Parameters mesh_prm = prm.mesh;
+  mesh_prm.lower_corner                     = scene.lower_corner();
+  mesh_prm.upper_corner                     = scene.upper_corner();
+  const auto          mesh = initial_mesh<dim>(comm, mesh_prm, scene);
+  const MeshData<dim> data(*mesh, scene);
+  State<dim>          state(mesh);
+  for (LocalIndex node = 0; node < mesh->n_owned_nodes(); ++node)
+    state.phi.local_element(node) = scene.liquid_distance(mesh->node_position[node]);
+  state.phi.update_ghost_values();
+  set_initial_material(state, data);
+  for (unsigned int k = 0; k < 5; ++k)
+    settle_material(state, data, 6);
+  const WhereLiquidIs<dim> liquid(state, scene);
+  double                   factor = 1;
+  for (LocalIndex c = 0; c < mesh->n_owned_cells(); ++c)
+    if (liquid.domain.liquid_volume[c] > 0)
+      {
+        const Point<dim> &x = liquid.domain.liquid_centre[c];
+        if (scene.liquid_distance(x) > -2 * mesh->finest_size() || std::any_of(jumps.begin(), jumps.end(), [&](const double y) {
+              return std::abs(x[1] - y) < margin * mesh->finest_size();
+            }))
+          continue;
+        const double ratio = liquid.domain.viscosity[c] / scene.initial_material(x).viscosity(x, 0);
+        factor             = std::max({factor, ratio, 1 / ratio});
+      }
+  factor = Utilities::MPI::max(factor, comm);
+  out() << dim << "D, " << name << ": off by a factor of " << std::setprecision(2) << factor << " at most"
+        << std::endl;
+}
+
 void
 start(const int argc, char **argv)
 {
@@ -105,6 +153,10 @@ start(const int argc, char **argv)
   on_1_2_3_ranks([&](const MPI_Comm &comm) {
     turn<2>(comm, argument(1, 5), argument(2, 40), argument(3, 5));
     turn<3>(comm, argument(1, 5) - 1, argument(2, 40) / 2, 1);
+    rest<2>(comm, "exponential", "10^(6*y)", {}, 0);
+    rest<3>(comm, "exponential", "10^(6*y)", {}, 0);
+    rest<2>(comm, "three layers", "if(y<0.4,1,if(y<0.6,100,10000))", {0.4, 0.6}, 1.2);
+    rest<3>(comm, "three layers", "if(y<0.4,1,if(y<0.6,100,10000))", {0.4, 0.6}, 1.2);
   });
 }
 

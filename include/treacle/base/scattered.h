@@ -4,6 +4,7 @@
 #ifndef treacle_base_scattered_h
 #define treacle_base_scattered_h
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -46,6 +47,20 @@ namespace treacle
         x = std::modf(start + k / power, &whole);
       }
     return point;
+  }
+
+  /// The same in a simplex, in barycentric coordinates: sorted, the coordinates in the cube cut the unit
+  /// interval into them.
+  template <unsigned int n>
+  std::array<double, n + 1>
+  even_point_in_simplex(const double start, const unsigned int k)
+  {
+    std::array<double, n> cut = even_point<n>(start, k);
+    std::sort(cut.begin(), cut.end());
+    std::array<double, n + 1> lambda;
+    for (unsigned int i = 0; i <= n; ++i)
+      lambda[i] = (i < n ? cut[i] : 1.) - (i > 0 ? cut[i - 1] : 0.);
+    return lambda;
   }
 } // namespace treacle
 

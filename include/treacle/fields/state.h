@@ -17,7 +17,7 @@ namespace treacle
   struct CarriedField
   {
     Vector mean;           ///< at nodes
-    Vector least, largest; ///< of the material points around a node; the mean where there are none
+    Vector least, largest; ///< of the material points about a node at a jump; elsewhere the mean
 
     explicit CarriedField(const std::shared_ptr<const Utilities::MPI::Partitioner> &nodes)
       : mean(nodes)

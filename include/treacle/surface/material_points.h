@@ -20,11 +20,11 @@ namespace treacle
     /// others what they have, within bounds that the points set.
     MaterialPoints(State<dim> &state, const MeshData<dim> &data);
 
-    /// Does a node know its material? Not collective.
+    /// Does a node know its material, from the liquid it is in or from points? Not collective.
     bool
     is_known(const LocalIndex node) const
     {
-      return state.phi.local_element(node) < 0 || weight.local_element(node) > 0;
+      return known.local_element(node) > 0;
     }
 
     /// Gives a new point at a position, in a cell and at barycentric coordinates there.
@@ -41,8 +41,8 @@ namespace treacle
     point(const Point<dim> &x, const LocalIndex cell, const VertexValues<dim> &lambda) const
     {
       return {x,
-              density.in_cell({mesh, density.field, cell}, lambda),
-              viscosity.in_cell({mesh, viscosity.field, cell}, lambda)};
+              CarriedInCell<dim>(mesh, density.field, cell).value(lambda),
+              CarriedInCell<dim>(mesh, viscosity.field, cell).value(lambda)};
     }
 
   private:
@@ -60,21 +60,19 @@ namespace treacle
         return largest > least_jump * least ||
                largest - least > std::max(0.25 * spread, 1e-9 * largest); // more than roundoff
       }
-
-      double
-      in_cell(const CarriedInCell<dim> &cell, const VertexValues<dim> &lambda) const
-      {
-        return jumps(cell.least, cell.largest) ? cell.sharp(lambda) : cell.smooth(lambda);
-      }
     };
 
     void
     locate();
 
+    /// The weights of a point at the nodes of its cell: P1, for its part of the cell (m^dim).
+    VertexValues<dim>
+    weights_of(const Location<dim> &location) const;
+
     double
     spread_of(const Property &property) const;
 
-    /// About jumps with P1 weights.
+    /// Where the points about a node have two values.
     void
     give_to_nodes(const Property &property);
 
@@ -106,6 +104,7 @@ namespace treacle
     Property                   density, viscosity;
     std::vector<Location<dim>> place;  ///< of the points
     Vector                     weight; ///< of the points around each node
+    Vector                     known;  ///< 1 at nodes that know their material
     Vector                     count;  ///< of points in each cell
   };
 } // namespace treacle

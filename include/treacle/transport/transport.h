@@ -57,8 +57,8 @@ namespace treacle
                 const double              volume,
                 Timing                   &timing) const;
 
-    /// The surface moves on by the velocity of @p pushed, and nothing else, until it has swept a volume
-    /// (in about a second); with volume correction to @p volume in all (m^dim).
+    /// The surface and its material points move on by the velocity of @p pushed, and nothing else, until
+    /// they have swept a volume (in about a second); with volume correction to @p volume in all (m^dim).
     void
     displace(Liquid<dim>       &liquid,
              const Liquid<dim> &pushed,
