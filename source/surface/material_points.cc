@@ -89,16 +89,13 @@ namespace treacle
         kept.push_back(point);
         place.push_back(found);
         count.local_element(found.cell) += 1;
+        const VertexValues<dim> w = weights_of(found);
+        for (unsigned int i = 0; i <= dim; ++i)
+          weight.local_element(mesh.cell_nodes[found.cell][i]) += w[i];
       }
     material.points = std::move(kept);
     count.compress(VectorOperation::add);
     count.update_ghost_values();
-    for (const Location<dim> &location : place)
-      {
-        const VertexValues<dim> w = weights_of(location);
-        for (unsigned int i = 0; i <= dim; ++i)
-          weight.local_element(mesh.cell_nodes[location.cell][i]) += w[i];
-      }
     weight.compress(VectorOperation::add);
     // liquid may have come where nothing brought its material
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
@@ -110,12 +107,11 @@ namespace treacle
 
   template <int dim>
   VertexValues<dim>
-  MaterialPoints<dim>::weights_of(const Location<dim> &location) const
+  MaterialPoints<dim>::weights_of(const Location<dim> &location)
   {
-    const double      part = mesh.cell_volume[location.cell] / count.local_element(location.cell);
     VertexValues<dim> w;
     for (unsigned int i = 0; i <= dim; ++i)
-      w[i] = location.lambda[i] > 1e-9 ? part * location.lambda[i] : 0.;
+      w[i] = location.lambda[i] > 1e-9 ? location.lambda[i] : 0.; // no sum of roundoff
     return w;
   }
 

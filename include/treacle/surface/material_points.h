@@ -65,9 +65,9 @@ namespace treacle
     void
     locate();
 
-    /// The weights of a point at the nodes of its cell: P1, for its part of the cell (m^dim).
-    VertexValues<dim>
-    weights_of(const Location<dim> &location) const;
+    /// The weights of a point at the nodes of its cell: P1.
+    static VertexValues<dim>
+    weights_of(const Location<dim> &location);
 
     double
     spread_of(const Property &property) const;
