@@ -60,14 +60,6 @@ namespace treacle
       return prm;
     }
 
-    template <int dim>
-    typename Octree<dim>::Parameters
-    with_box(typename Octree<dim>::Parameters mesh, const Scene<dim> &scene)
-    {
-      mesh.lower_corner = scene.lower_corner();
-      mesh.upper_corner = scene.upper_corner();
-      return mesh;
-    }
   } // namespace
 
   template <int dim>
@@ -140,7 +132,7 @@ namespace treacle
   {
     const auto section = timing.section("set-up");
     const auto mesh =
-      imported ? imported : initial_mesh<dim>(comm, with_box(prm.mesh, scene), scene);
+      imported ? imported : initial_mesh<dim>(comm, prm.mesh, scene);
     check_bodies(*mesh, scene);
     liquid.mesh_data  = std::make_shared<const MeshData<dim>>(*mesh, scene);
     liquid.state      = std::make_unique<State<dim>>(mesh);

@@ -127,8 +127,6 @@ namespace tests
     State<dim>
     make_state(const MPI_Comm &comm)
     {
-      prm.mesh.lower_corner = scene.lower_corner();
-      prm.mesh.upper_corner = scene.upper_corner();
       State<dim>       result(prm.imported.is_imported() ?
                                 std::make_shared<const Mesh<dim>>(comm, prm.imported.file) :
                                 initial_mesh<dim>(comm, prm.mesh, scene));

@@ -6,7 +6,6 @@
 #include <treacle/fields/liquid_domain.h>
 #include <treacle/fields/viscosity_jumps.h>
 
-#include <numeric>
 
 namespace treacle
 {
@@ -103,8 +102,7 @@ namespace treacle
       lambda[i] = (i == 0) + mesh.cell_gradients[c][i] * (liquid_centre[c] - origin);
     const auto mean = [&](const Vector &field) {
       const VertexValues<dim> values = mesh.values(c, field);
-      const double            value =
-        std::inner_product(lambda.begin(), lambda.end(), values.begin(), 0.);
+      const double            value  = interpolate(values, lambda);
       // the dual centre, which stands in for it, may lie outside of its cell
       const auto [lower, upper] = std::minmax_element(values.begin(), values.end());
       return std::min(std::max(value, *lower), *upper);

@@ -55,13 +55,7 @@ namespace treacle
       unsigned int            n     = 0;
       for (const VertexValues<dim> &lambda : even)
         {
-          double phi_at = 0, solid_at = 0;
-          for (unsigned int i = 0; i <= dim; ++i)
-            {
-              phi_at += lambda[i] * phi[i];
-              solid_at += lambda[i] * solid[i];
-            }
-          if (phi_at >= 0 || solid_at <= 0)
+          if (interpolate(phi, lambda) >= 0 || interpolate(solid, lambda) <= 0)
             continue;
           sum += std::pow(viscosity(lambda), exponent);
           ++n;

@@ -7,7 +7,6 @@
 #include <treacle/scene/bodies.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace treacle
 {
@@ -103,7 +102,7 @@ namespace treacle
       const auto                 &nodes = mesh.cell_nodes[location.cell];
       const VertexValues<dim>     phi   = mesh.values(location.cell, state.phi);
       std::array<double, dim + 1> result{};
-      if (std::inner_product(phi.begin(), phi.end(), location.lambda.begin(), 0.) > 0)
+      if (treacle::interpolate(phi, location.lambda) > 0)
         return result;
       for (unsigned int i = 0; i <= dim; ++i)
         {

@@ -130,12 +130,7 @@ namespace treacle
 
       // one rank knows each number, not always the owner, who adds up what others know. To
       // add -0 changes nothing, not the sign of a zero either
-      saved.for_each([](Vector &v) {
-        v.zero_out_ghost_values();
-        const unsigned int n = v.locally_owned_size() + v.get_partitioner()->n_ghost_indices();
-        for (unsigned int i = 0; i < n; ++i)
-          v.local_element(i) = -0.;
-      });
+      saved.for_each([](Vector &v) { fill(v, -0.); });
       auto next = numbers.begin();
       for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
         rows.for_each_number(c, saved, [&](Vector &v, const LocalIndex i) {

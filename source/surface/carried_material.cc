@@ -41,12 +41,9 @@ namespace treacle
   void
   settle_material(State<dim> &state, const MeshData<dim> &data, const unsigned int n_layers)
   {
-    const Mesh<dim>    &mesh = data.mesh;
     MaterialPoints<dim> points(state, data);
-    Vector              known(mesh.nodes);
-    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      known.local_element(node) = points.is_known(node);
-    CarriedField &density = state.material->density, &viscosity = state.material->viscosity;
+    Vector              known = points.nodes_that_know();
+    CarriedField       &density = state.material->density, &viscosity = state.material->viscosity;
     continue_outwards(
       data,
       known,

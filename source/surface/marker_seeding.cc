@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/base/scattered.h>
 #include <treacle/fields/moved_points.h>
 #include <treacle/mesh/surface_size.h>
 #include <treacle/surface/marker_seeding.h>
 #include <treacle/surface/near_markers.h>
+#include <treacle/surface/sowing.h>
 
 namespace treacle
 {
   namespace
   {
+    /// Point k of an even sequence on a facet.
     template <int dim>
     Point<dim>
     even_point(const std::array<Point<dim>, dim> &facet, const double start, const unsigned int k)
@@ -57,15 +58,6 @@ namespace treacle
       }
 
     private:
-      std::uint64_t
-      key(const LocalIndex cell) const
-      {
-        std::uint64_t sum = 0;
-        for (const LocalIndex node : mesh.cell_nodes[cell])
-          sum += mesh.node_key[node];
-        return sum;
-      }
-
       /// Markers per area.
       double
       density(const LocalIndex cell) const
@@ -100,18 +92,14 @@ namespace treacle
         count.update_ghost_values();
       }
 
-      /// Cells with more than twice what is wanted keep a part that depends on the
-      /// markers' places alone.
       void
       thin()
       {
         std::vector<Marker<dim>> kept;
         for (unsigned int k = 0; k < cells.size(); ++k)
           {
-            const double n      = count.local_element(cells[k]);
             const double target = wanted.local_element(cells[k]);
-            if (target == 0 || n <= 2 * target + 2 || 
-                scattered_at(state.markers[k].position, 1e-3 * mesh.finest_size()) * n < target)
+            if (target == 0 || stays(mesh, state.markers[k].position, count.local_element(cells[k]), target))
               kept.push_back(state.markers[k]);
           }
         state.markers = std::move(kept);
@@ -126,7 +114,7 @@ namespace treacle
             const double target = wanted.local_element(c);
             if (target == 0 || count.local_element(c) >= 0.5 * target)
               continue;
-            const double start   = scattered(key(c));
+            const double start   = start_of_seeds(mesh, c);
             double       missing = target - count.local_element(c), part = start;
             for_each_facet(mesh, state.phi, c, [&](const auto &x) {
               const Tensor<1, dim> area = area_vector<dim>(x);

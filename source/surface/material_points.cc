@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/base/scattered.h>
 #include <treacle/fields/moved_points.h>
 #include <treacle/mesh/surface_size.h>
 #include <treacle/surface/material_points.h>
-
-#include <numeric>
+#include <treacle/surface/sowing.h>
 
 namespace treacle
 {
@@ -30,23 +28,6 @@ namespace treacle
     has_two_values(const double least, const double largest, const double mean, const double squares)
     {
       return squares - mean * mean > 0.6 * (mean - log_of(least)) * (log_of(largest) - mean);
-    }
-
-    /// Owned and ghost elements.
-    void
-    fill(Vector &v, const double value)
-    {
-      v.zero_out_ghost_values();
-      const unsigned int n = v.locally_owned_size() + v.get_partitioner()->n_ghost_indices();
-      for (unsigned int i = 0; i < n; ++i)
-        v.local_element(i) = value;
-    }
-
-    template <int dim>
-    double
-    value_at(const VertexValues<dim> &values, const VertexValues<dim> &lambda)
-    {
-      return std::inner_product(values.begin(), values.end(), lambda.begin(), 0.);
     }
   } // namespace
 
@@ -79,19 +60,21 @@ namespace treacle
     std::vector<MaterialPoint<dim>> kept;
     for (const MaterialPoint<dim> &point : material.points)
       {
-        const Location<dim> found = mesh.locator().locate_here(point.position);
+        Location<dim> found = mesh.locator().locate_here(point.position);
         if (found.cell == invalid)
           continue;
         const double reach = 0.5 * surface_size_of_cell(mesh, found.cell);
-        if (value_at<dim>(mesh.values(found.cell, state.phi), found.lambda) > reach ||
-            value_at<dim>(mesh.values(found.cell, solid_distance), found.lambda) < -reach)
+        if (interpolate(mesh.values(found.cell, state.phi), found.lambda) > reach ||
+            interpolate(mesh.values(found.cell, solid_distance), found.lambda) < -reach)
           continue;
+        for (double &lambda : found.lambda)
+          if (lambda <= 1e-9)
+            lambda = 0; // no sum of roundoff
         kept.push_back(point);
         place.push_back(found);
         count.local_element(found.cell) += 1;
-        const VertexValues<dim> w = weights_of(found);
         for (unsigned int i = 0; i <= dim; ++i)
-          weight.local_element(mesh.cell_nodes[found.cell][i]) += w[i];
+          weight.local_element(mesh.cell_nodes[found.cell][i]) += found.lambda[i];
       }
     material.points = std::move(kept);
     count.compress(VectorOperation::add);
@@ -103,16 +86,6 @@ namespace treacle
         weight.local_element(node) > 0 ||
         (state.phi.local_element(node) < 0 && material.density.mean.local_element(node) > 0);
     known.update_ghost_values();
-  }
-
-  template <int dim>
-  VertexValues<dim>
-  MaterialPoints<dim>::weights_of(const Location<dim> &location)
-  {
-    VertexValues<dim> w;
-    for (unsigned int i = 0; i <= dim; ++i)
-      w[i] = location.lambda[i] > 1e-9 ? location.lambda[i] : 0.; // no sum of roundoff
-    return w;
   }
 
   template <int dim>
@@ -143,8 +116,8 @@ namespace treacle
     fill(field.largest, -std::numeric_limits<double>::max());
     for (unsigned int k = 0; k < place.size(); ++k)
       {
-        const VertexValues<dim> w     = weights_of(place[k]);
-        const double            value = material.points[k].*property.of_point, logarithm = log_of(value);
+        const VertexValues<dim> &w     = place[k].lambda;
+        const double             value = material.points[k].*property.of_point, logarithm = log_of(value);
         for (unsigned int i = 0; i <= dim; ++i)
           {
             const LocalIndex node = mesh.cell_nodes[place[k].cell][i];
@@ -258,10 +231,8 @@ namespace treacle
     for (unsigned int k = 0; k < place.size(); ++k)
       {
         const LocalIndex c = place[k].cell;
-        const double     n = count.local_element(c), target = points_per_cell<dim>;
         if (is_wanted.local_element(c) > 0 &&
-            (n <= 2 * target + 2 ||
-             scattered_at(material.points[k].position, 1e-3 * surface_size_of_cell(mesh, c)) * n < target))
+            stays(mesh, material.points[k].position, count.local_element(c), points_per_cell<dim>))
           kept.push_back(material.points[k]);
       }
     material.points = std::move(kept);
@@ -271,15 +242,13 @@ namespace treacle
   std::vector<VertexValues<dim>>
   MaterialPoints<dim>::places_in(const LocalIndex c) const
   {
-    std::uint64_t key = 0;
-    for (const LocalIndex node : mesh.cell_nodes[c])
-      key += mesh.node_key[node];
+    const double                   start = start_of_seeds(mesh, c);
     const VertexValues<dim>        phi = mesh.values(c, state.phi), solid = mesh.values(c, solid_distance);
     std::vector<VertexValues<dim>> places;
     for (unsigned int k = 0; k < points_per_cell<dim>; ++k)
       {
-        const VertexValues<dim> lambda = even_point_in_simplex<dim>(scattered(key), k);
-        if (value_at<dim>(phi, lambda) < 0 && value_at<dim>(solid, lambda) > 0)
+        const VertexValues<dim> lambda = even_point_in_simplex<dim>(start, k);
+        if (interpolate(phi, lambda) < 0 && interpolate(solid, lambda) > 0)
           places.push_back(lambda);
       }
     return places;

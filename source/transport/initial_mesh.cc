@@ -111,9 +111,10 @@ namespace treacle
   template <int dim>
   std::shared_ptr<const Mesh<dim>>
   initial_mesh(const MPI_Comm                         &comm,
-               const typename Octree<dim>::Parameters &prm,
+               const typename Octree<dim>::Parameters &parameters,
                const Scene<dim>                       &scene)
   {
+    const auto              prm = with_box(parameters, scene);
     const Sizing<dim>       sizing(prm, scene);
     const OctreeGrowth<dim> growth(comm, prm, sizing, scene, 0., [&](const std::vector<Point<dim>> &x) {
       std::vector<double> values;

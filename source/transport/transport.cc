@@ -4,9 +4,9 @@
 #include <treacle/base/exchange.h>
 #include <treacle/fields/liquid_volume.h>
 #include <treacle/fields/moved_points.h>
+#include <treacle/surface/carried_material.h>
 #include <treacle/surface/emission.h>
 #include <treacle/surface/extrapolation.h>
-#include <treacle/surface/carried_material.h>
 #include <treacle/transport/remesh.h>
 #include <treacle/transport/transport.h>
 #include <treacle/transport/velocity_in_time.h>

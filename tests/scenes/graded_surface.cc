@@ -75,10 +75,7 @@ namespace
   {
     const auto       prm = parse<dim>(text, n_solids);
     const Scene<dim> scene(prm.scene, comm);
-    auto             mesh_prm = prm.mesh;
-    mesh_prm.lower_corner     = scene.lower_corner();
-    mesh_prm.upper_corner     = scene.upper_corner();
-    const auto                       mesh   = initial_mesh<dim>(comm, mesh_prm, scene);
+    const auto                       mesh   = initial_mesh<dim>(comm, prm.mesh, scene);
     const Octree<dim>               &octree = mesh->octree();
     std::vector<unsigned int>        count(prm.mesh.surface_level + 1);
     for (unsigned int l = 0; l < octree.n_owned_leaves(); ++l)

@@ -11,7 +11,6 @@
 #include "../tests.h"
 #include "../run_scene.h"
 
-#include <treacle/fields/moved_points.h>
 #include <treacle/surface/carried_material.h>
 #include <treacle/transport/advection.h>
 #include <treacle/transport/initial_mesh.h>
@@ -92,11 +91,8 @@ carry(const MPI_Comm &comm, const unsigned int level)
     (dim == 2 ? "0.6, 0.7" : "0.6, 0.7, 0.7") + "\nend\n";
   const auto                          prm = parse<dim>(text, 0, 2);
   const Scene<dim>                    scene(prm.scene);
-  typename Octree<dim>::Parameters    mesh_prm = prm.mesh;
-  mesh_prm.lower_corner = scene.lower_corner();
-  mesh_prm.upper_corner = scene.upper_corner();
 
-  auto             state = std::make_unique<State<dim>>(initial_mesh<dim>(comm, mesh_prm, scene));
+  auto             state = std::make_unique<State<dim>>(initial_mesh<dim>(comm, prm.mesh, scene));
   for (LocalIndex node = 0; node < state->mesh->n_owned_nodes(); ++node)
     state->phi.local_element(node) = scene.liquid_distance(state->mesh->node_position[node]);
   state->phi.update_ghost_values();

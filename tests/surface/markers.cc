@@ -88,8 +88,6 @@ carry(const MPI_Comm                                  &comm,
                0);
   prm.liquid_domain.minimum_theta = 0.01;
   const Scene<dim> scene(prm.scene);
-  prm.mesh.lower_corner = scene.lower_corner();
-  prm.mesh.upper_corner = scene.upper_corner();
   const SurfaceTracking<dim> tracking(tracking_parameters);
 
   auto         state = std::make_unique<State<dim>>(initial_mesh<dim>(comm, prm.mesh, scene));

@@ -10,7 +10,6 @@
 #include "../run_scene.h"
 #include "../tests.h"
 
-#include <treacle/fields/moved_points.h>
 #include <treacle/surface/carried_material.h>
 #include <treacle/transport/advection.h>
 #include <treacle/transport/initial_mesh.h>
@@ -24,7 +23,7 @@ turn(const MPI_Comm    &comm,
      const unsigned int n_steps,
      const unsigned int n_turns)
 {
-  const std::string centre = dim == 2 ? "0.5, 0.5" : "0.5, 0.5, 0.5", l = std::to_string(level);
+  const std::string l      = std::to_string(level);
   const std::string shape  = "set Shape = expression\nset Expression = max(sqrt((x-0.5)^2 + (y-0.5)^2" +
                             std::string(dim == 2 ? "" : "+ (z-0.5)^2") + ") - 0.4, ";
   const auto prm = parse<dim>("subsection Mesh\nset Surface level = " + l + "\nset Interior level = " + l +
@@ -35,10 +34,7 @@ turn(const MPI_Comm    &comm,
                               0,
                               2);
   const Scene<dim>                 scene(prm.scene);
-  typename Octree<dim>::Parameters mesh_prm = prm.mesh;
-  mesh_prm.lower_corner                     = scene.lower_corner();
-  mesh_prm.upper_corner                     = scene.upper_corner();
-  const auto          mesh = initial_mesh<dim>(comm, mesh_prm, scene);
+  const auto          mesh = initial_mesh<dim>(comm, prm.mesh, scene);
   const MeshData<dim> data(*mesh, scene);
   auto                state = std::make_unique<State<dim>>(mesh);
   for (LocalIndex node = 0; node < mesh->n_owned_nodes(); ++node)
@@ -114,10 +110,7 @@ rest(const MPI_Comm            &comm,
                               0,
                               1);
   const Scene<dim>                 scene(prm.scene);
-  typename Octree<dim>::Parameters mesh_prm = prm.mesh;
-  mesh_prm.lower_corner                     = scene.lower_corner();
-  mesh_prm.upper_corner                     = scene.upper_corner();
-  const auto          mesh = initial_mesh<dim>(comm, mesh_prm, scene);
+  const auto          mesh = initial_mesh<dim>(comm, prm.mesh, scene);
   const MeshData<dim> data(*mesh, scene);
   State<dim>          state(mesh);
   for (LocalIndex node = 0; node < mesh->n_owned_nodes(); ++node)

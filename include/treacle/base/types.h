@@ -19,6 +19,16 @@ namespace treacle
   /// Values per node, face, cell or unknown: owned ones first, then ghosts.
   using Vector = LinearAlgebra::distributed::Vector<double>;
 
+  /// Set all elements, owned and ghost, which are then ready for compress().
+  inline void
+  fill(Vector &v, const double value)
+  {
+    v.zero_out_ghost_values();
+    const unsigned int n = v.locally_owned_size() + v.get_partitioner()->n_ghost_indices();
+    for (unsigned int i = 0; i < n; ++i)
+      v.local_element(i) = value;
+  }
+
   /// The packed integer coordinates of a lattice vertex, the same on every rank.
   using VertexKey = std::uint64_t;
 

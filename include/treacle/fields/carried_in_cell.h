@@ -76,9 +76,7 @@ namespace treacle
     double
     value(const VertexValues<dim> &lambda) const
     {
-      double smooth = 0;
-      for (unsigned int i = 0; i <= dim; ++i)
-        smooth += lambda[i] * mean[i];
+      const double smooth = interpolate(mean, lambda);
       if (!jumps())
         return smooth;
       // a tie is not left to roundoff

@@ -6,6 +6,8 @@
 
 #include <treacle/base/types.h>
 
+#include <numeric>
+
 namespace treacle
 {
   /// The vertices of a simplex, ordered so that signed_volume() is positive.
@@ -15,6 +17,14 @@ namespace treacle
   /// One value per vertex of a simplex of dimension dim.
   template <int dim>
   using VertexValues = std::array<double, dim + 1>;
+
+  /// The value at barycentric coordinates of what is linear between the vertices.
+  template <std::size_t n>
+  double
+  interpolate(const std::array<double, n> &values, const std::array<double, n> &lambda)
+  {
+    return std::inner_product(values.begin(), values.end(), lambda.begin(), 0.);
+  }
 
   /// Volume (m^dim), positive for right-handed vertex order.
   template <int dim>

@@ -20,11 +20,11 @@ namespace treacle
     /// others what they have, within bounds that the points set.
     MaterialPoints(State<dim> &state, const MeshData<dim> &data);
 
-    /// Does a node know its material, from the liquid it is in or from points? Not collective.
-    bool
-    is_known(const LocalIndex node) const
+    /// 1 at nodes that know their material, from the liquid they are in or from points; else 0.
+    const Vector &
+    nodes_that_know() const
     {
-      return known.local_element(node) > 0;
+      return known;
     }
 
     /// Gives a new point at a position, in a cell and at barycentric coordinates there.
@@ -62,12 +62,14 @@ namespace treacle
       }
     };
 
+    bool
+    is_known(const LocalIndex node) const
+    {
+      return known.local_element(node) > 0;
+    }
+
     void
     locate();
-
-    /// The weights of a point at the nodes of its cell: P1.
-    static VertexValues<dim>
-    weights_of(const Location<dim> &location);
 
     double
     spread_of(const Property &property) const;
@@ -104,7 +106,7 @@ namespace treacle
     Property                   density, viscosity;
     std::vector<Location<dim>> place;  ///< of the points
     Vector                     weight; ///< of the points around each node
-    Vector                     known;  ///< 1 at nodes that know their material
+    Vector                     known;
     Vector                     count;  ///< of points in each cell
   };
 } // namespace treacle

@@ -9,7 +9,17 @@
 
 namespace treacle
 {
-  /// A mesh for the liquids of the scene at t = 0. Collective.
+  /// In the box of the scene.
+  template <int dim>
+  typename Octree<dim>::Parameters
+  with_box(typename Octree<dim>::Parameters mesh, const Scene<dim> &scene)
+  {
+    mesh.lower_corner = scene.lower_corner();
+    mesh.upper_corner = scene.upper_corner();
+    return mesh;
+  }
+
+  /// A mesh for the liquids of the scene at t = 0, in its box. Collective.
   template <int dim>
   std::shared_ptr<const Mesh<dim>>
   initial_mesh(const MPI_Comm                         &comm,

@@ -85,10 +85,13 @@ def interpolated(column, time, factor=1):
     return lambda results: numpy.interp(time, results[TIME], results[column]) * factor
 
 
-def rate(column, power=1):
+def rate(column, power=1, start=-math.inf):
     """The decay rate of what is the power-th power of an amplitude: the slope of a line
-    through the logarithms."""
-    return lambda results: -numpy.polyfit(results[TIME], numpy.log(results[column]), 1)[0] / power
+    through the logarithms after start."""
+    def value(results):
+        late = results[TIME] > start
+        return -numpy.polyfit(results[TIME][late], numpy.log(results[column][late]), 1)[0] / power
+    return value
 
 
 def amplitude(points, k):
