@@ -175,8 +175,10 @@ namespace
   [[noreturn]] void
   end_all(const std::string &message)
   {
-    std::cerr << "treacle: error: on rank "
-              << Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) << ": " << message << std::endl;
+    // in one piece: what mpirun has to say may come between
+    std::cerr << "treacle: error: on rank " +
+                   std::to_string(Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)) + ": " + message + "\n"
+              << std::flush;
     MPI_Abort(MPI_COMM_WORLD, 1);
     std::abort();
   }

@@ -58,7 +58,7 @@ CASES = [
      r"Material/Density is .* at x = "),
     ("solver that does not converge",
      {"Linear solvers/Pressure/Maximum iterations": "1", "Linear solvers/Pressure/Preconditioner": "none",
-      "Domain/Upper corner": "1, 1", "Liquid 1/Centre": "0.5, 0.1"},
+      "Viscosity/Pressure coupling": "split", "Domain/Upper corner": "1, 1", "Liquid 1/Centre": "0.5, 0.1"},
      r"Linear solvers/Pressure.*Maximum iterations"),
     ("markers lost", {"Liquid 1/Velocity": "20*sin(40*y); 20*cos(37*x)", "Maximum CFL number": "100",
                       "Maximum time step": "0.1", "Frame interval": "0.2", "End time": "0.2"},

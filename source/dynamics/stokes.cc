@@ -5,20 +5,18 @@
 #include <treacle/base/work.h>
 #include <treacle/dynamics/stokes.h>
 #include <treacle/fields/face_node.h>
-
-#include <deal.II/lac/solver_minres.h>
+#include <treacle/solvers/conjugate_residuals.h>
 
 namespace treacle
 {
   namespace
   {
-    /// Of mu step over rho h^2: less than this is none.
-    constexpr double least_viscosity = 1e-12;
-
     /// Where the residual of the first guess is within so many tolerances, by the diagonal, a few
     /// iterations with the diagonal alone cost less than hierarchies.
     constexpr double       near_enough      = 30;
     constexpr unsigned int most_by_diagonal = 20;
+    /// As many more until the projection has nothing to correct, which would need a hierarchy for it.
+    constexpr unsigned int most_further = 8;
   } // namespace
 
   template <int dim>
@@ -59,45 +57,26 @@ namespace treacle
                    *hybrid.stiff.matrix,
                    [this] { return this->system.stress_free_motions(this->stiffness); })
     , faces(system, pressure, hybrid)
-    , viscous_schur(viscous_schur_complement())
+    , schur_complement(pressure, hybrid, step)
     , diagonal_inverse(2)
-    , z_viscous(pressure.rows(), domain.mesh.communicator())
+    , hierarchies{[this](Vector &z, const Vector &r) { nodes_solver.precondition(z, r); },
+                  [this](Vector &z, const Vector &r) { schur_complement.invert(z, r); }}
+    , diagonals{[this](Vector &z, const Vector &r) { scale(z, r, 0); },
+                [this](Vector &z, const Vector &r) { scale(z, r, 1); }}
+    , outflow(pressure.rows(), domain.mesh.communicator())
   {
-    // over its diagonal most of it has eigenvalues from 0.05 to 2, whatever mesh and viscosity are
-    if (pressure.rows().size() > 0)
-      viscous_schur_inverse.initialize(*viscous_schur, {8, 2., 50.});
     diagonal_inverse.block(0).reinit(hybrid.stiff.shift, true);
-    diagonal_inverse.block(1).reinit(pressure.rows(), domain.mesh.communicator());
     for (const GlobalIndex row : hybrid.stiff.shift.locally_owned_elements())
       diagonal_inverse.block(0)(row) = 1 / hybrid.stiff.matrix->diag_element(row);
-    for (const GlobalIndex row : pressure.rows())
-      diagonal_inverse.block(1)(row) =
-        1 / pressure.projection().diag_element(row) + 1 / viscous_schur->diag_element(row);
+    diagonal_inverse.block(1) = schur_complement.inverse_diagonal();
   }
 
   template <int dim>
-  std::unique_ptr<const TrilinosWrappers::SparseMatrix>
-  Stokes<dim>::viscous_schur_complement() const
+  void
+  Stokes<dim>::scale(Vector &z, const Vector &r, const unsigned int block) const
   {
-    const Mesh<dim>    &mesh = domain.mesh;
-    std::vector<double> mass;
-    for (const LocalIndex c : pressure.cells())
-      {
-        double open = 0, all = 0; // squares of areas
-        for (const LocalIndex f : mesh.cell_faces[c])
-          {
-            open += std::pow(domain.open_fraction[f] * mesh.face_area[f], 2);
-            all += std::pow(mesh.face_area[f], 2);
-          }
-        // little goes out of a cell that solids or emitters all but close
-        const double volume = std::min(domain.open_volume(c), open / all * mesh.cell_volume[c]);
-        const double mu_dt =
-          std::max(domain.viscosity[c] * step,
-                   least_viscosity * domain.density[c] * std::pow(mesh.cell_size[c], 2));
-        mass.push_back(volume / (2 * mu_dt));
-      }
-    return pressure.assemble(
-      [this](const LocalIndex f) { return (1 - hybrid.share[f]) / domain.face_mass[f]; }, mass);
+    z = r;
+    z.scale(diagonal_inverse.block(block));
   }
 
   template <int dim>
@@ -106,17 +85,18 @@ namespace treacle
   {
     ++Work::here().products;
     hybrid.stiff.matrix->vmult(y.block(0), x.block(0));
-    faces.apply(y.block(0), y.block(1), x.block(0), x.block(1));
+    faces.couple(y.block(0), y.block(1), x.block(0), x.block(1));
   }
 
   template <int dim>
-  void
-  Stokes<dim>::precondition(Pair &z, const Pair &r) const
+  double
+  Stokes<dim>::measure(Pair &y, Pair &r, const Inverse &inverse) const
   {
-    nodes_solver.precondition(z.block(0), r.block(0));
-    pressure.precondition(z.block(1), r.block(1));
-    viscous_schur_inverse.vmult(z_viscous, r.block(1));
-    z.block(1) += z_viscous;
+    inverse.momentum(y.block(0), r.block(0));
+    faces.outflow(outflow, y.block(0));
+    r.block(1) -= outflow;
+    inverse.schur(y.block(1), r.block(1));
+    return r * y;
   }
 
   template <int dim>
@@ -180,55 +160,45 @@ namespace treacle
   }
 
   template <int dim>
-  void
-  Stokes<dim>::scale(Pair &z, const Pair &r) const
+  bool
+  Stokes<dim>::is_free_of_divergence(const Pair &r, const Pair &y) const
   {
-    for (unsigned int k = 0; k < 2; ++k)
-      {
-        z.block(k) = r.block(k);
-        z.block(k).scale(diagonal_inverse.block(k));
-      }
+    faces.outflow(outflow, y.block(0));
+    outflow += r.block(1);
+    return !(outflow.l2_norm() > tolerated_outflow);
   }
 
   template <int dim>
   std::optional<unsigned int>
-  Stokes<dim>::minres(Pair              &x,
-                      const Pair        &b,
-                      const Operator    &preconditioner,
-                      const double       squared_norm,
-                      const unsigned int most) const
+  Stokes<dim>::improve(Pair              &x,
+                       const Pair        &b,
+                       const Inverse     &inverse,
+                       const double       squared_norm,
+                       const unsigned int most) const
   {
-    SolverControl      control(most, prm.relative_tolerance * std::sqrt(squared_norm));
-    SolverMinRes<Pair> solver(control);
-    try
-      {
-        solver.solve(Multiplies<Pair>{[&](Pair &y, const Pair &p) { vmult(y, p); }},
-                     x,
-                     b,
-                     Multiplies<Pair>{preconditioner});
-      }
-    catch (const SolverControl::NoConvergence &)
-      {
-        return {};
-      }
-    return control.last_step();
+    unsigned int n_further = 0;
+    const auto   is_small  = [&](const Pair &r, const Pair &y) {
+      return !(r * y > std::pow(prm.relative_tolerance, 2) * squared_norm) &&
+             (is_free_of_divergence(r, y) || n_further++ == most_further);
+    };
+    return ConjugateResiduals<Pair>([this](Pair &y, const Pair &p) { vmult(y, p); },
+                                    [&](Pair &y, Pair &r) { measure(y, r, inverse); },
+                                    [](Pair &y) { y.block(1) *= -1; })
+      .solve(x, b, is_small, most);
   }
 
   template <int dim>
   std::optional<unsigned int>
   Stokes<dim>::solve_by_diagonal(Pair &x, const Pair &b) const
   {
-    Pair r(b), z(b);
-    scale(z, b);
-    const double squared_norm = b * z;
+    Pair         r(b), y(b);
+    const double squared_norm = measure(y, r, diagonals);
     vmult(r, x);
     r.sadd(-1, 1, b);
-    scale(z, r);
-    if (!(r * z < squared_norm * std::pow(near_enough * prm.relative_tolerance, 2)))
+    if (!(measure(y, r, diagonals) < squared_norm * std::pow(near_enough * prm.relative_tolerance, 2)))
       return {};
-    Pair       attempt = x;
-    const auto iterations =
-      minres(attempt, b, [this](Pair &y, const Pair &p) { scale(y, p); }, squared_norm, most_by_diagonal);
+    Pair       attempt    = x;
+    const auto iterations = improve(attempt, b, diagonals, squared_norm, most_by_diagonal);
     if (iterations)
       x = attempt;
     return iterations;
@@ -241,9 +211,8 @@ namespace treacle
     require_finite(b.l2_norm(), "Coupled");
     if (const auto iterations = solve_by_diagonal(x, b))
       return iterations;
-    Pair z(b);
-    precondition(z, b);
-    const double squared_norm = b * z;
+    Pair         r(b), y(b);
+    const double squared_norm = measure(y, r, hierarchies);
     if (b.l2_norm() > 0 && !(squared_norm > 0)) // the preconditioner is of no use
       return {};
     if (squared_norm == 0)
@@ -251,8 +220,7 @@ namespace treacle
         x = 0;
         return 0;
       }
-    return minres(
-      x, b, [this](Pair &y, const Pair &r) { precondition(y, r); }, squared_norm, prm.maximum_iterations);
+    return improve(x, b, hierarchies, squared_norm, prm.maximum_iterations);
   }
 
   template <int dim>
@@ -260,8 +228,13 @@ namespace treacle
   Stokes<dim>::advance(State<dim> &state, Reactions<dim> &reactions) const
   {
     pressure.set_walls(state.u);
-    const Pair b          = right_hand_side(state);
-    Pair       x          = first_guess(state, b);
+    const Pair b = right_hand_side(state);
+    Pair       x = first_guess(state, b);
+    Vector     u = domain.mesh.zeros(domain.mesh.faces); // much as it will be
+    for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
+      u.local_element(f) = face_velocity(domain.mesh, state.v, f);
+    u.update_ghost_values();
+    tolerated_outflow     = 0.5 * pressure.tolerated_outflow(u);
     const auto iterations = solve(x, b);
     if (!iterations)
       return {};

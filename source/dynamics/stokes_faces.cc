@@ -80,7 +80,7 @@ namespace treacle
 
   template <int dim>
   void
-  StokesFaces<dim>::scatter(const Vector &x_v, const Vector &x_q) const
+  StokesFaces<dim>::scatter_velocity(const Vector &x_v) const
   {
     for (unsigned int i = 0; i < system.nodes().size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
@@ -89,6 +89,12 @@ namespace treacle
     node_values.update_ghost_values();
     for (unsigned int i = 0; i < nodes.size(); ++i)
       v[i] = node_values.value(nodes[i]);
+  }
+
+  template <int dim>
+  void
+  StokesFaces<dim>::scatter_pressure(const Vector &x_q) const
+  {
     pressure.to_cells(x_q, cell_values);
     for (unsigned int i = 0; i < cells.size(); ++i)
       q[i] = cell_values.local_element(cells[i]);
@@ -96,26 +102,33 @@ namespace treacle
 
   template <int dim>
   void
-  StokesFaces<dim>::apply(Vector       &momentum,
-                          Vector       &outflow,
-                          const Vector &x_v,
-                          const Vector &x_q) const
+  StokesFaces<dim>::outflow(Vector &out_of_cells, const Vector &x_v) const
   {
-    scatter(x_v, x_q);
+    scatter_velocity(x_v);
+    std::fill(out.begin(), out.end(), 0.);
+    for (const Face &face : faces)
+      add_flux(face, face.flux * (face.share * sum_of_nodes(face)));
+    for (unsigned int i = 0; i < pressure.cells().size(); ++i)
+      out_of_cells.local_element(i) = -out[i];
+  }
+
+  template <int dim>
+  void
+  StokesFaces<dim>::couple(Vector       &momentum,
+                           Vector       &outflow,
+                           const Vector &x_v,
+                           const Vector &x_q) const
+  {
+    scatter_velocity(x_v);
+    scatter_pressure(x_q);
     std::fill(pushed.begin(), pushed.end(), Tensor<1, dim>());
     std::fill(out.begin(), out.end(), 0.);
     for (const Face &face : faces)
       {
-        const double   push = face.flux * (q[face.cells[0]] - q[face.cells[1]]); // B^T q
-        Tensor<1, dim> sum;
+        const double push = face.flux * (q[face.cells[0]] - q[face.cells[1]]); // B^T q
         for (const LocalIndex node : face.nodes)
-          {
-            sum += v[node];
-            pushed[node] += push * face.share;
-          }
-        const double flux = face.flux * (face.share * sum + face.mobility * push);
-        out[face.cells[0]] += flux;
-        out[face.cells[1]] -= flux;
+          pushed[node] += push * face.share;
+        add_flux(face, face.flux * (face.share * sum_of_nodes(face) + face.mobility * push));
       }
     for (unsigned int i = 0; i < system.nodes().size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)

@@ -16,6 +16,14 @@ namespace treacle
       AssertThrow(std::isfinite(x.norm_square()),
                   ExcMessage("A point to be traced is not finite: " + to_text(x, 6) + "."));
     }
+
+    /// Of the velocities at the stages of Ralston's method, which are at 0, 1/2 and 3/4 of the step.
+    template <typename Velocity>
+    Velocity
+    mean_of_stages(const Velocity &first, const Velocity &second, const Velocity &third)
+    {
+      return (2. * first + 3. * second + 4. * third) * (1. / 9.);
+    }
   } // namespace
 
   template <int dim>
@@ -111,11 +119,75 @@ namespace treacle
   }
 
   template <int dim>
+  std::optional<Tensor<1, dim>>
+  Tracer<dim>::value_here(const Point<dim> &x, const NodeVector<dim> &field, LocalIndex &guess) const
+  {
+    const Location<dim> location = locator.locate(x, guess);
+    guess                        = location.cell;
+    if (location.cell == invalid)
+      return {};
+    Tensor<1, dim> value;
+    for (unsigned int i = 0; i <= dim; ++i)
+      value += location.lambda[i] * field.value(mesh.cell_nodes[location.cell][i]);
+    return value;
+  }
+
+  template <int dim>
+  std::optional<Point<dim>>
+  Tracer<dim>::path_end_here(const Point<dim>      &x,
+                             const NodeVector<dim> &velocity,
+                             const double           dt,
+                             LocalIndex            &guess) const
+  {
+    const auto k1 = value_here(x, velocity, guess);
+    const auto k2 = k1 ? value_here(x + 0.5 * dt * *k1, velocity, guess) : k1;
+    const auto k3 = k2 ? value_here(x + 0.75 * dt * *k2, velocity, guess) : k2;
+    if (!k3)
+      return {};
+    return x + dt * mean_of_stages(*k1, *k2, *k3);
+  }
+
+  template <int dim>
   std::vector<Point<dim>>
   Tracer<dim>::path_ends(const std::vector<Point<dim>> &x,
                          const NodeVector<dim>         &velocity,
                          const double                   dt,
                          Guesses                       &guesses) const
+  {
+    guesses.resize(x.size(), invalid);
+    std::vector<Point<dim>>   ends(x.size()), others;
+    std::vector<unsigned int> places;
+    Guesses                   other_guesses;
+    for (unsigned int i = 0; i < x.size(); ++i)
+      {
+        LocalIndex guess = guesses[i];
+        if (const auto end = path_end_here(x[i], velocity, dt, guess))
+          {
+            ends[i]    = *end;
+            guesses[i] = guess;
+          }
+        else
+          {
+            places.push_back(i);
+            others.push_back(x[i]);
+            other_guesses.push_back(guesses[i]);
+          }
+      }
+    const auto other_ends = path_ends_anywhere(others, velocity, dt, other_guesses);
+    for (unsigned int i = 0; i < places.size(); ++i)
+      {
+        ends[places[i]]    = other_ends[i];
+        guesses[places[i]] = other_guesses[i];
+      }
+    return ends;
+  }
+
+  template <int dim>
+  std::vector<Point<dim>>
+  Tracer<dim>::path_ends_anywhere(const std::vector<Point<dim>> &x,
+                                  const NodeVector<dim>         &velocity,
+                                  const double                   dt,
+                                  Guesses                       &guesses) const
   {
     const std::vector<NodeField<dim>> fields = fields_of(velocity);
     const auto advanced = [&](const std::vector<double> &k, const double step) {
@@ -130,7 +202,7 @@ namespace treacle
     const std::vector<double> k3 = evaluate(advanced(k2, 0.75 * dt), fields, guesses);
     std::vector<double>       k(k1.size());
     for (unsigned int i = 0; i < k.size(); ++i)
-      k[i] = (2 * k1[i] + 3 * k2[i] + 4 * k3[i]) / 9;
+      k[i] = mean_of_stages(k1[i], k2[i], k3[i]);
     return advanced(k, dt);
   }
 

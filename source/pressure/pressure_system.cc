@@ -87,6 +87,22 @@ namespace treacle
 
   template <int dim>
   double
+  PressureSystem<dim>::throughflow(const Vector &u) const
+  {
+    const Mesh<dim> &mesh = domain.mesh;
+    double           sum  = 0;
+    for (const LocalIndex c : cells())
+      {
+        double flux = 0;
+        for (const LocalIndex f : mesh.cell_faces[c])
+          flux += mesh.face_area[f] * domain.open_fraction[f] * std::abs(u.local_element(f));
+        sum += flux * flux;
+      }
+    return std::sqrt(Utilities::MPI::sum(sum, mesh.communicator()));
+  }
+
+  template <int dim>
+  double
   PressureSystem<dim>::outflow(const LiquidDomain<dim> &domain, const LocalIndex c, const Vector &u)
   {
     double flux = 0;

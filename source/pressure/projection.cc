@@ -21,7 +21,7 @@ namespace treacle
       }
     // a correction is small beside what flows in and out, which has the say
     const unsigned int iterations =
-      system.solve(q, b, pass == Pass::correction ? throughflow(state.u) : 0.);
+      system.solve(q, b, pass == Pass::correction ? system.throughflow(state.u) : 0.);
 
     Vector q_cell = mesh.zeros(mesh.cells);
     system.to_cells(q, q_cell);
@@ -45,22 +45,6 @@ namespace treacle
     Vector q_cell = system.domain.mesh.zeros(system.domain.mesh.cells);
     system.to_cells(q, q_cell);
     system.push(q_cell, u);
-  }
-
-  template <int dim>
-  double
-  Projection<dim>::throughflow(const Vector &u) const
-  {
-    const Mesh<dim> &mesh = system.domain.mesh;
-    double           sum  = 0;
-    for (const LocalIndex c : system.cells())
-      {
-        double flux = 0;
-        for (const LocalIndex f : mesh.cell_faces[c])
-          flux += mesh.face_area[f] * system.domain.open_fraction[f] * std::abs(u.local_element(f));
-        sum += flux * flux;
-      }
-    return std::sqrt(Utilities::MPI::sum(sum, mesh.communicator()));
   }
 
   template class Projection<2>;

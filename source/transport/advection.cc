@@ -213,18 +213,26 @@ namespace treacle
   }
 
   template <int dim>
-  std::vector<double>
-  Advection<dim>::change_along_paths(const Past                    &past,
-                                     const std::vector<Point<dim>> &x,
-                                     Guesses                       &guesses) const
+  typename Advection<dim>::Paths
+  Advection<dim>::paths_to(const std::vector<Point<dim>> &x, const Carried &now, Guesses &&guesses) const
   {
-    const Tracer<dim>   tracer(*old.mesh);
-    const auto          from    = tracer.trace(x, velocity, -dt, guesses);
-    std::vector<double> change  = tracer.evaluate(from, past.now.fields, guesses);
-    const auto          further = tracer.trace(from, past.between, -old.before->dt, guesses);
-    const auto          before  = tracer.evaluate(further, past.before.fields, guesses);
-    std::transform(change.begin(), change.end(), before.begin(), change.begin(), std::minus<>());
-    return change;
+    const Tracer<dim> tracer(*old.mesh);
+    Paths             paths{tracer.trace(x, velocity, -dt, guesses), {}, {}};
+    paths.values = tracer.evaluate(paths.from, now.fields, guesses);
+    paths.cells  = std::move(guesses);
+    return paths;
+  }
+
+  template <int dim>
+  std::vector<double>
+  Advection<dim>::change_along(Paths &&paths, const Past &past) const
+  {
+    const Tracer<dim> tracer(*old.mesh);
+    const auto        further = tracer.trace(paths.from, past.between, -old.before->dt, paths.cells);
+    const auto        before  = tracer.evaluate(further, past.before.fields, paths.cells);
+    std::transform(
+      paths.values.begin(), paths.values.end(), before.begin(), paths.values.begin(), std::minus<>());
+    return std::move(paths.values);
   }
 
   template <int dim>
@@ -248,7 +256,7 @@ namespace treacle
           if (&mesh == old.mesh.get())
             guesses.push_back(mesh.node_cells[mesh.node_cell_start[node]]);
         }
-    const std::vector<double> values = change_along_paths(past, x, guesses);
+    const std::vector<double> values = change_along(paths_to(x, past.now, std::move(guesses)), past);
     NodeVector<dim>           change(mesh.nodes);
     for (unsigned int i = 0; i < nodes.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
@@ -270,36 +278,29 @@ namespace treacle
           return state.phi.local_element(node) <= 0 && state.phi.local_element(node) > -deep;
         });
       });
-    const auto add = [&](const auto begin, const auto end, const double weight, const auto &at) {
-      std::vector<Point<dim>> x;
-      Guesses                 guesses;
-      for (auto f = begin; f != end; ++f)
-        {
-          x.push_back(mesh.face_centre[*f]);
-          if (&mesh == old.mesh.get())
-            guesses.push_back(std::min(mesh.face_cells[*f][0], mesh.face_cells[*f][1]));
-        }
-      const std::vector<double> values = at(x, guesses);
-      for (unsigned int i = 0; i < x.size(); ++i)
-        for (unsigned int d = 0; d < dim; ++d)
-          state.u.local_element(begin[i]) +=
-            weight * mesh.face_normal[begin[i]][d] * values[dim * i + d];
+    std::vector<Point<dim>> x;
+    Guesses                 guesses;
+    for (const LocalIndex f : faces)
+      {
+        x.push_back(mesh.face_centre[f]);
+        if (&mesh == old.mesh.get())
+          guesses.push_back(std::min(mesh.face_cells[f][0], mesh.face_cells[f][1]));
+      }
+    const auto add = [&](const auto begin, const double weight, const std::vector<double> &values) {
+      for (unsigned int i = 0; i < values.size(); ++i)
+        state.u.local_element(begin[i / dim]) += weight * mesh.face_normal[begin[i / dim]][i % dim] * values[i];
     };
-    Carried now = carried(fields_of(old.v), velocity, dt, reach);
-    add(faces.begin(), faces.end(), 1, [&](const auto &x, Guesses &guesses) {
-      const Tracer<dim> tracer(*old.mesh);
-      const auto        from = tracer.trace(x, velocity, -dt, guesses);
-      return tracer.evaluate(from, now.fields, guesses);
-    });
+    Carried now   = carried(fields_of(old.v), velocity, dt, reach);
+    Paths   paths = paths_to(x, now, std::move(guesses));
+    add(faces.begin(), 1, paths.values);
     if (difference.before != 0)
       {
         const Past            past   = this->past(std::move(now), reach);
         const NodeVector<dim> change = change_at_nodes(past, mesh, {faces.begin(), shallow});
         for (auto f = faces.begin(); f != shallow; ++f)
           state.u.local_element(*f) -= difference.before * face_velocity(mesh, change, *f);
-        add(shallow, faces.end(), -difference.before, [&](const auto &x, Guesses &guesses) {
-          return change_along_paths(past, x, guesses);
-        });
+        paths.drop(shallow - faces.begin());
+        add(shallow, -difference.before, change_along(std::move(paths), past));
       }
     state.u.update_ghost_values();
   }

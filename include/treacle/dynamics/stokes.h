@@ -4,6 +4,7 @@
 #ifndef treacle_dynamics_stokes_h
 #define treacle_dynamics_stokes_h
 
+#include <treacle/dynamics/schur_complement.h>
 #include <treacle/dynamics/stokes_faces.h>
 #include <treacle/viscosity/reactions.h>
 
@@ -18,9 +19,9 @@ namespace treacle
   ///   (K + P^T s M P) v - P^T s B^T q     = P^T s M u*
   ///   -B s P v - B (1 - s) M^-1 B^T q     = B (1 - s) u*,
   ///
-  /// symmetric and indefinite, solved by MINRES. Its preconditioner is one multigrid cycle
-  /// for the first block, and for the pressure one of the projection's matrix and a
-  /// polynomial of what viscosity makes of the Schur complement, as in Cahouet & Chabard (1988).
+  /// symmetric and indefinite, solved by conjugate residuals with a block triangular preconditioner: one
+  /// multigrid cycle for the first block, and for the outflow that it leaves an approximate inverse of the
+  /// Schur complement.
   template <int dim>
   class Stokes
   {
@@ -53,16 +54,22 @@ namespace treacle
   private:
     using Pair = LinearAlgebra::distributed::BlockVector<double>; ///< of v and q
 
-    /// V / (2 mu step) + B (1 - s) M^-1 B^T: what the Schur complement comes to where viscosity
-    /// rules.
-    std::unique_ptr<const TrilinosWrappers::SparseMatrix>
-    viscous_schur_complement() const;
+    void
+    scale(Vector &z, const Vector &r, const unsigned int block) const;
 
     void
     vmult(Pair &y, const Pair &x) const;
 
-    void
-    precondition(Pair &z, const Pair &r) const;
+    /// Approximate inverses, symmetric and positive, of the first block and of the Schur complement.
+    struct Inverse
+    {
+      LinearSolver::Operator momentum, schur;
+    };
+
+    /// By these inverses: the outflow of r becomes s, what is left of it once A^-1 r_v flows, and y is
+    /// A^-1 r_v and S^-1 s. Returns r_v A^-1 r_v + s S^-1 s, the square of the residual's natural norm.
+    double
+    measure(Pair &y, Pair &r, const Inverse &inverse) const;
 
     Pair
     right_hand_side(const State<dim> &state) const;
@@ -70,20 +77,18 @@ namespace treacle
     Pair
     first_guess(const State<dim> &state, const Pair &b) const;
 
-    using Operator = std::function<void(Pair &, const Pair &)>;
+    /// Of a residual as measure() leaves it: is the outflow less than the projection asks for?
+    bool
+    is_free_of_divergence(const Pair &r, const Pair &y) const;
 
-    /// z = the diagonals of the preconditioner's matrices over r.
-    void
-    scale(Pair &z, const Pair &r) const;
-
-    /// Improve x to the tolerance times the norm of b, which is given; the number of
+    /// x to the tolerance times the norm of b, whose square is given; the number of
     /// iterations, nothing where it takes more than @p most.
     std::optional<unsigned int>
-    minres(Pair              &x,
-           const Pair        &b,
-           const Operator    &preconditioner,
-           const double       squared_norm,
-           const unsigned int most) const;
+    improve(Pair              &x,
+            const Pair        &b,
+            const Inverse     &inverse,
+            const double       squared_norm,
+            const unsigned int most) const;
 
     /// Where x is all but right, as in flight. Seen by the diagonal residuals look larger beside
     /// b, for they are rougher.
@@ -107,10 +112,11 @@ namespace treacle
     const Hybrid<dim>        hybrid;
     const LinearSolver       nodes_solver;
     const StokesFaces<dim>   faces;
-    const std::unique_ptr<const TrilinosWrappers::SparseMatrix> viscous_schur;
-    TrilinosWrappers::PreconditionChebyshev                     viscous_schur_inverse;
-    Pair                                                        diagonal_inverse;
-    mutable Vector                                              z_viscous; ///< scratch
+    const SchurComplement<dim> schur_complement;
+    Pair                       diagonal_inverse;
+    const Inverse              hierarchies, diagonals;
+    mutable double             tolerated_outflow = 0; ///< (m^dim/s)
+    mutable Vector             outflow;               ///< scratch
   };
 } // namespace treacle
 

@@ -24,7 +24,11 @@ namespace treacle
     /// momentum of free components, and set the outflow -B s P v - B (1 - s) M^-1 B^T q of the
     /// pressure cells. Collective.
     void
-    apply(Vector &momentum, Vector &outflow, const Vector &x_v, const Vector &x_q) const;
+    couple(Vector &momentum, Vector &outflow, const Vector &x_v, const Vector &x_q) const;
+
+    /// The outflow -B s P v of the pressure cells. Collective.
+    void
+    outflow(Vector &out_of_cells, const Vector &x_v) const;
 
   private:
     struct Face
@@ -44,7 +48,27 @@ namespace treacle
 
     /// Zero where v is prescribed.
     void
-    scatter(const Vector &x_v, const Vector &x_q) const;
+    scatter_velocity(const Vector &x_v) const;
+
+    void
+    scatter_pressure(const Vector &x_q) const;
+
+    /// The sum over a face's nodes.
+    Tensor<1, dim>
+    sum_of_nodes(const Face &face) const
+    {
+      Tensor<1, dim> sum;
+      for (const LocalIndex node : face.nodes)
+        sum += v[node];
+      return sum;
+    }
+
+    void
+    add_flux(const Face &face, const double flux) const
+    {
+      out[face.cells[0]] += flux;
+      out[face.cells[1]] -= flux;
+    }
 
     const NodeSystem<dim>     &system;
     const PressureSystem<dim> &pressure;

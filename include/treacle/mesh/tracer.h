@@ -6,6 +6,8 @@
 
 #include <treacle/mesh/locator.h>
 
+#include <optional>
+
 namespace treacle
 {
   /// For each point the cell of this rank where it is looked for first, then that where it was
@@ -87,6 +89,24 @@ namespace treacle
               Guesses                       &guesses) const;
 
   private:
+    /// Not collective; nothing where the point may lie on another rank. Guesses become where it was found.
+    std::optional<Tensor<1, dim>>
+    value_here(const Point<dim> &x, const NodeVector<dim> &field, LocalIndex &guess) const;
+
+    /// The same of a path. One after the other they stay among the same few cells.
+    std::optional<Point<dim>>
+    path_end_here(const Point<dim>      &x,
+                  const NodeVector<dim> &velocity,
+                  const double           dt,
+                  LocalIndex            &guess) const;
+
+    /// Paths that lead to other ranks or out of the mesh.
+    std::vector<Point<dim>>
+    path_ends_anywhere(const std::vector<Point<dim>> &x,
+                       const NodeVector<dim>         &velocity,
+                       const double                   dt,
+                       Guesses                       &guesses) const;
+
     void
     evaluate_here(const Location<dim>               &location,
                   const std::vector<NodeField<dim>> &fields,

@@ -81,6 +81,17 @@ namespace treacle
     static double
     outflow(const LiquidDomain<dim> &domain, const LocalIndex cell, const Vector &u);
 
+    /// What flows through the cells: the norm of the sums of |flux| (m^dim/s). Collective.
+    double
+    throughflow(const Vector &u) const;
+
+    /// The norm of the outflow of all cells (m^dim/s) that a correction leaves beside this velocity. Collective.
+    double
+    tolerated_outflow(const Vector &u) const
+    {
+      return solver.relative_tolerance() * throughflow(u);
+    }
+
     /// u on the faces that solids close, and ghosts.
     void
     set_walls(Vector &u) const;

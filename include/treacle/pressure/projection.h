@@ -50,10 +50,6 @@ namespace treacle
     carry_away(Vector &u, const Vector &inflow) const;
 
   private:
-    /// What flows through the cells: the norm of the sums of |flux| (m^dim/s). Collective.
-    double
-    throughflow(const Vector &u) const;
-
     const PressureSystem<dim> &system;
   };
 } // namespace treacle

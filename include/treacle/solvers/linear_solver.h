@@ -87,6 +87,12 @@ namespace treacle
     unsigned int
     solve(Vector &x, const Vector &b, const double scale = 0) const;
 
+    double
+    relative_tolerance() const
+    {
+      return prm.relative_tolerance;
+    }
+
     /// z = the preconditioner times r. Collective.
     void
     precondition(Vector &z, const Vector &r) const;

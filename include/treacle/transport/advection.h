@@ -118,10 +118,30 @@ namespace treacle
     Past
     past(Carried &&now, const double reach) const;
 
-    /// By how much the velocity changed in the step before along the paths that lead to these
-    /// points, at each: [point * dim + component].
+    /// The paths of a step: where they come from, the cells there, and the velocity of now there
+    /// ([path * dim + component]).
+    struct Paths
+    {
+      std::vector<Point<dim>> from;
+      Guesses                 cells;
+      std::vector<double>     values;
+
+      /// The first n.
+      void
+      drop(const unsigned int n)
+      {
+        from.erase(from.begin(), from.begin() + n);
+        cells.erase(cells.begin(), cells.begin() + n);
+        values.erase(values.begin(), values.begin() + n * dim);
+      }
+    };
+
+    Paths
+    paths_to(const std::vector<Point<dim>> &x, const Carried &now, Guesses &&guesses) const;
+
+    /// By how much the velocity changed in the step before along these paths, in place of the values.
     std::vector<double>
-    change_along_paths(const Past &past, const std::vector<Point<dim>> &x, Guesses &guesses) const;
+    change_along(Paths &&paths, const Past &past) const;
 
     /// The same at the nodes of some faces. Their mean is smoother than what is read at the faces,
     /// which feeds short waves of a surface without viscosity; deep in the liquid it feeds vortices.
