@@ -103,10 +103,16 @@ namespace treacle
                       "the Surface level; a formula in " +
                         std::string(dim == 2 ? "x,y,t" : "x,y,z,t") +
                         ", taken at the centres of leaves and of their children. Empty: any.");
+    prm.add_parameter("Fine at jumps",
+                      fine_at_jumps,
+                      "Whether leaves are of the Surface level where the viscosity of the liquid jumps: where "
+                      "it is 1.5 times as large beside a leaf; between advected materials, at t = 0 if they differ at "
+                      "all, later by 1.5 times or a quarter of all that there is.");
     prm.add_parameter("Maximum cells",
                       maximum_cells,
                       "Where the surface asks for more cells, about, it gets larger leaves than it asks for, "
-                      "everywhere in proportion, down to the Coarsest surface level; 0: any number.",
+                      "everywhere in proportion, down to the Coarsest surface level, but not what is asked for "
+                      "in the liquid; 0: any number.",
                       Patterns::Integer(0));
   }
 

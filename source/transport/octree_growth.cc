@@ -37,7 +37,7 @@ namespace treacle
           Utilities::MPI::max(leaves.empty() ? 0u : leaves.front().level, comm);
         if (level < prm.air_level)
           return std::vector<bool>(leaves.size(), true);
-        if (level < prm.interior_level || sizing.asks_in_liquid())
+        if (level < prm.interior_level || sizing.asks_in_liquid(time))
           refine_liquid(leaves, refine);
         return refine;
       },
@@ -109,7 +109,8 @@ namespace treacle
     const double     edge   = prm.size_of(leaf.level);
     const double     reach  = half_diagonal<dim>(edge) + (while_growing ? 0.5 * edge : 0.);
     const Point<dim> x      = centre<dim>(prm, leaf);
-    bool             result = sizing.level_in_liquid(x, reach, time) > leaf.level;
+    bool             result = sizing.level_in_liquid(x, reach, time) > leaf.level ||
+                  (leaf.level < prm.surface_level && sizing.jumps_in(x, edge, time, while_growing));
     for (unsigned int child = 0; child < 1u << dim && while_growing && !result; ++child)
       result = sizing.level_in_liquid(vertex_of_cube<dim>(x, 0.5 * edge, child), 0, time) > leaf.level;
     return result;
@@ -140,7 +141,7 @@ namespace treacle
   OctreeGrowth<dim>::refine_liquid(const std::vector<Leaf<dim>> &leaves, std::vector<bool> &refine) const
   {
     const std::vector<double> values = phi_at_centres(leaves);
-    if (sizing.asks_in_liquid())
+    if (sizing.asks_in_liquid(time))
       {
         const std::vector<bool> asked = are_too_coarse(leaves, values, true);
         std::transform(refine.begin(), refine.end(), asked.begin(), refine.begin(), std::logical_or<>());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/fields/carried_in_cell.h>
 #include <treacle/mesh/surface_size.h>
 #include <treacle/transport/bands.h>
 #include <treacle/transport/octree_growth.h>
@@ -45,6 +46,43 @@ namespace treacle
         }
     }
 
+    /// A place (m) after a step, and the way there.
+    template <int dim>
+    struct Jump
+    {
+      Point<dim>     x;
+      Tensor<1, dim> way;
+    };
+
+    /// Where the material that the liquid carries jumps after a step, if there are to be fine leaves:
+    /// centroids of cells.
+    template <int dim>
+    std::vector<Jump<dim>>
+    jumps_after(const State<dim> &state, const double dt)
+    {
+      const Mesh<dim>       &mesh = *state.mesh;
+      std::vector<Jump<dim>> result;
+      if (!state.material || !mesh.octree().parameters().fine_at_jumps)
+        return result;
+      for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+        {
+          const VertexValues<dim>  phi = mesh.values(c, state.phi);
+          const CarriedInCell<dim> density(mesh, state.material->density, c),
+            viscosity(mesh, state.material->viscosity, c);
+          if (*std::min_element(phi.begin(), phi.end()) >= 0 || !(density.jumps() || viscosity.jumps()))
+            continue;
+          Point<dim>     x;
+          Tensor<1, dim> way;
+          for (const LocalIndex node : mesh.cell_nodes[c])
+            {
+              x += mesh.node_position[node] / (dim + 1);
+              way += dt * state.v.value(node) / (dim + 1);
+            }
+          result.push_back({x + way, way});
+        }
+      return result;
+    }
+
     /// A surface after a step.
     template <int dim>
     struct NextSurface
@@ -53,7 +91,8 @@ namespace treacle
       const Surface<dim>             &surface;
       const std::vector<Point<dim>>  &vertices; ///< of it, after the step
       const std::vector<Marker<dim>> &markers;
-      const Vector                   &size; ///< that it asks for (m), at nodes
+      const std::vector<Jump<dim>>   &jumps; ///< of the material that is carried along
+      const Vector                   &size;  ///< that it asks for (m), at nodes
 
       /// With leaves that may be larger by a factor. Markers that left the surface behind are in the
       /// coarsest band.
@@ -70,10 +109,32 @@ namespace treacle
         const std::vector<unsigned int> level  = levels(factor);
         BandPoints<dim>                 result = points_at(level);
         append_way_ahead(result, mesh, surface.positions, vertices, level);
+        append_around_jumps(result);
         return result;
       }
 
     private:
+      /// Two leaves about, and the way of the next steps, so that a new mesh serves for some.
+      void
+      append_around_jumps(BandPoints<dim> &points) const
+      {
+        const OctreeParameters<dim> &prm = mesh.octree().parameters();
+        const double                 h   = prm.finest_size();
+        for (const Jump<dim> &jump : jumps)
+          {
+            const unsigned int n_ahead = std::min(3., std::ceil(4 * jump.way.norm() / h));
+            for (unsigned int k = 1; k <= n_ahead; ++k)
+              points[prm.surface_level].push_back({jump.x + k * (4. / n_ahead) * jump.way, {}});
+            for (unsigned int d = 0; d < dim; ++d)
+              for (const double side : {-2., 2.})
+                {
+                  Point<dim> aside = jump.x;
+                  aside[d] += side * h;
+                  points[prm.surface_level].push_back({aside, {}});
+                }
+          }
+      }
+
       std::vector<unsigned int>
       levels(const double factor) const
       {
@@ -86,6 +147,8 @@ namespace treacle
         BandPoints<dim> result = facets_by_level(surface, vertices, level);
         for (const Marker<dim> &marker : markers)
           result[mesh.octree().parameters().coarsest_at_surface()].push_back({marker.position, {}});
+        for (const Jump<dim> &jump : jumps)
+          result[mesh.octree().parameters().surface_level].push_back({jump.x, {}});
         return result;
       }
     };
@@ -139,17 +202,19 @@ namespace treacle
     // what a bound keeps from being finer stays as it is until it is looked for a better mesh
     const bool             is_bounded = prm.maximum_cells > 0;
     const Vector           present    = is_bounded ? as_they_are(mesh, size) : Vector();
-    const NextSurface<dim> moved{mesh, surface.facets, next, markers, size},
-      held{mesh, surface.facets, next, markers, is_bounded ? present : size};
+    const auto             jumps      = jumps_after(state, dt);
+    const NextSurface<dim> moved{mesh, surface.facets, next, markers, jumps, size},
+      held{mesh, surface.facets, next, markers, jumps, is_bounded ? present : size};
     const bool is_fine_enough =
       Bands<dim>(octree, scene, time, held.points(too_large), true).are_in_leaves() &&
-      !(sizing.asks_in_liquid() && growth.is_any_too_coarse(owned_leaves(octree)));
+      !(sizing.asks_in_liquid(time) && growth.is_any_too_coarse(owned_leaves(octree)));
     if (is_fine_enough &&
         (state.step == 0 || state.step % steps_between_looks != 0 || !(is_bounded || is_too_fine(mesh, size))))
       return state.mesh;
     const auto tree =
       growth.grow_around(octree, [&](const double factor) { return moved.points_ahead(factor); });
-    return is_fine_enough && !is_bounded && n_leaves(*tree) > worth_while * n_leaves(octree) ?
+    return (is_fine_enough && !is_bounded && n_leaves(*tree) > worth_while * n_leaves(octree)) ||
+               fingerprint(*tree) == fingerprint(octree) ?
              state.mesh :
              std::make_shared<const Mesh<dim>>(tree);
   }

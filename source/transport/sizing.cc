@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/exchange.h>
+#include <treacle/fields/carried_in_cell.h>
 #include <treacle/fields/gradients.h>
 #include <treacle/mesh/surface_size.h>
 #include <treacle/transport/sizing.h>
@@ -192,9 +193,60 @@ namespace treacle
 
   template <int dim>
   bool
-  Sizing<dim>::asks_in_liquid() const
+  Sizing<dim>::asks_in_liquid(const double time) const
   {
-    return largest || scene.asks_for_levels();
+    return largest || may_jump(time) || scene.asks_for_levels();
+  }
+
+  template <int dim>
+  bool
+  Sizing<dim>::may_jump(const double time) const
+  {
+    return prm.fine_at_jumps &&
+           (scene.has_advected_material() ? time <= 0 : !scene.has_constant_viscosity());
+  }
+
+  template <int dim>
+  bool
+  Sizing<dim>::jumps_in(const Point<dim> &centre,
+                        const double      edge,
+                        const double      time,
+                        const bool        while_growing) const
+  {
+    if (!may_jump(time))
+      return false;
+    const bool is_advected = scene.has_advected_material();
+    double     least = std::numeric_limits<double>::max(), most = 0;
+    bool       differs = false;
+    const auto take    = [&](Point<dim> x) {
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d] = std::clamp(x[d], prm.lower_corner[d], prm.upper_corner[d]);
+      const auto viscosity_of = [&](const Material<dim> &liquid) { return liquid.viscosity(x, time); };
+      double     mu           = 0;
+      if (is_advected)
+        {
+          const Material<dim> &here = scene.initial_material(x), &there = scene.initial_material(centre);
+          mu      = viscosity_of(here);
+          differs = differs || mu != viscosity_of(there) || here.density(x, time) != there.density(x, time);
+        }
+      else
+        mu = scene.viscosity(x, time);
+      least = std::min(least, mu);
+      most  = std::max(most, mu);
+    };
+    take(centre);
+    for (unsigned int vertex = 0; vertex < 1u << dim; ++vertex)
+      {
+        take(vertex_of_cube<dim>(centre, edge, vertex));
+        if (!while_growing)
+          continue;
+        take(vertex_of_cube<dim>(centre, 2 * edge, vertex));
+        const Point<dim> child = vertex_of_cube<dim>(centre, 0.5 * edge, vertex);
+        take(child);
+        for (unsigned int of_child = 0; of_child < 1u << dim; ++of_child)
+          take(vertex_of_cube<dim>(child, 0.5 * edge, of_child));
+      }
+    return differs || most > least_jump * least;
   }
 
   template <int dim>

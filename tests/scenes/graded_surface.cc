@@ -130,6 +130,36 @@ namespace
                   "\nset Radius = 0.1\nset Level = 5\nend\n" + full,
                 1);
     levels<dim>(comm, "formula", mesh + "set Size = 0.05 + 0.4*x\nend\n" + full, 0);
+    const std::string jumps = mesh + "set Fine at jumps = true\nend\n" + full;
+    levels<dim>(comm, "jump", jumps + "subsection Material\nset Viscosity = if(x < 0.52, 1, 3)\nend\n", 0);
+    levels<dim>(comm, "no jump", jumps + "subsection Material\nset Viscosity = 1 + x\nend\n", 0);
+  }
+
+  /// Heavy liquid sinks into a light one, in a full box; kinetic energy beside that with fine leaves everywhere.
+  void
+  overturn(const MPI_Comm &comm)
+  {
+    const auto run = [&](const std::string &mesh) {
+      const std::string wave = "subsection Liquid 1\nset Shape = expression\nset Expression = ",
+                        text = "set End time = 0.8\nset Frame interval = 0.8\nset Maximum time step = 0.05\n"
+                               "subsection Material\nset Transport = advected\nset Viscosity = 10\nend\n" +
+                               wave + "y - 0.5 - 0.05*cos(2*pi*x)\nset Density = 900\nend\n" +
+                               "subsection Liquid 2\nset Shape = expression\nset Expression = "
+                               "0.5 + 0.05*cos(2*pi*x) - y\nend\nsubsection Mesh\nset Surface level = 5\n" +
+                               mesh + "end\n";
+      return run_scene<2>(comm, text, 0, 2);
+    };
+    const auto fine = run("set Interior level = 5\n"), jumps = run("set Interior level = 3\nset Fine at jumps = true\n"),
+               coarse = run("set Interior level = 3\n");
+    const auto error  = [&](const std::vector<Row> &rows) {
+      const std::string energy = "Nodal kinetic energy (J)";
+      return std::abs(rows.back().at(energy) / fine.back().at(energy) - 1);
+    };
+    out() << "2D: overturns, cells " << fine.back().at("Cells") << ", fine at jumps " << jumps.front().at("Cells")
+          << " to " << jumps.back().at("Cells") << " in " << jumps.back().at("Rebuilds") << " meshes and "
+          << jumps.size() - 1 << " steps, kinetic energy "
+          << (error(jumps) < 0.15 ? "within 15 %" : "OFF") << ", without " << (error(coarse) < 0.5 ? "TOO" : "not")
+          << std::endl;
   }
 } // namespace
 
@@ -144,6 +174,7 @@ start(const int, char **)
     turn<3>(comm);
     sizes<2>(comm);
     sizes<3>(comm);
+    overturn(comm);
   });
 }
 

@@ -34,7 +34,7 @@ namespace treacle
     viscous_part(const Hybrid<dim> &hybrid) const;
 
     /// Does it act far across the liquid in a step, wherever that is thinnest? What inertia does is felt
-    /// by waves of the pressure longer than that alone: of a few, by a factor of (1 / (pi far))^2 at most.
+    /// by waves of the pressure longer than that alone: a few, by a factor of ten or some tens.
     bool
     viscosity_rules() const;
 

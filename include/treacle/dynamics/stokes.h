@@ -77,9 +77,9 @@ namespace treacle
     Pair
     first_guess(const State<dim> &state, const Pair &b) const;
 
-    /// Of a residual as measure() leaves it: is the outflow less than the projection asks for?
-    bool
-    is_free_of_divergence(const Pair &r, const Pair &y) const;
+    /// Of a residual as measure() leaves it: the norm of the outflow that is left of all cells (m^dim/s).
+    double
+    outflow_left(const Pair &r, const Pair &y) const;
 
     /// x to the tolerance times the norm of b, whose square is given; the number of
     /// iterations, nothing where it takes more than @p most.

@@ -32,6 +32,7 @@ namespace treacle
     double      leaves_per_radius = 4; ///< of curvature
     double      leaves_across     = 4; ///< liquid and gaps
     std::string size;                  ///< of leaves (m), a formula; empty: any
+    bool        fine_at_jumps = false; ///< of the material
     unsigned int maximum_cells = 0;    ///< about; 0: any number
 
     /// Throws a UserError where no octree fits.

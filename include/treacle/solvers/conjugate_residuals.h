@@ -27,7 +27,7 @@ namespace treacle
     /// Turns D L r into the direction in which to go.
     using Turn = std::function<void(VectorType &)>;
 
-    /// Is a residual small enough, by L r and D L r?
+    /// Is it done, by L r and D L r of the residual?
     using Test = std::function<bool(const VectorType &, const VectorType &)>;
 
     ConjugateResiduals(const Operator &matrix, const Measure &measure, const Turn &turn)
@@ -36,10 +36,10 @@ namespace treacle
       , turn(turn)
     {}
 
-    /// Improve x until its residual is small. Returns the number of iterations, nothing where it takes
-    /// more than @p most. Collective.
+    /// Improve x until it is done. Returns the number of iterations, nothing where it takes more than
+    /// @p most. Collective.
     std::optional<unsigned int>
-    solve(VectorType &x, const VectorType &b, const Test &is_small, const unsigned int most) const
+    solve(VectorType &x, const VectorType &b, const Test &is_done, const unsigned int most) const
     {
       VectorType l(b), y(b);
       matrix(l, x);
@@ -47,9 +47,10 @@ namespace treacle
       measure(y, l);
       Direction              d{b, b, b};
       std::vector<Direction> last;
+      last.reserve(n_last);
       for (unsigned int k = 0;; ++k)
         {
-          if (is_small(l, y))
+          if (is_done(l, y))
             return k;
           if (k == most)
             return {};

@@ -81,6 +81,20 @@ namespace treacle
     const LevelSet               phi;
   };
 
+  /// Of leaves on all ranks, whatever rank each is on: the same for the same octree. Collective.
+  template <int dim>
+  std::uint64_t
+  fingerprint(const Octree<dim> &octree)
+  {
+    std::uint64_t sum = 0;
+    for (unsigned int l = 0; l < octree.n_owned_leaves(); ++l)
+      {
+        const Leaf<dim> &leaf = octree.leaves()[l];
+        sum += (pack<dim>(leaf.origin) + leaf.level) * 0x9e3779b97f4a7c15ull ^ leaf.level;
+      }
+    return Utilities::MPI::sum(sum, octree.communicator());
+  }
+
   /// Leaves on all ranks. Collective.
   template <int dim>
   double

@@ -13,8 +13,8 @@
 namespace treacle
 {
   /// How large leaves may be: along the surface, by its curvature and by how thick liquid and gaps
-  /// are there, and inside the liquid, by walls and solids that ask for a level. The formula
-  /// Mesh/Size counts in both. Refers to the scene.
+  /// are there, and inside the liquid, by walls and solids that ask for a level, and jumps of the
+  /// material. The formula Mesh/Size counts in both. Refers to the scene.
   template <int dim>
   class Sizing
   {
@@ -38,11 +38,21 @@ namespace treacle
     unsigned int
     level_in_liquid(const Point<dim> &x, const double distance, const double time) const;
 
-    /// Can level_in_liquid() be more than the interior level?
+    /// Are jumps of the material to have leaves of the surface level, and does it jump in a cube, by
+    /// formulas and liquids at @p time? While leaves grow, as far about, and wherever a cube of half
+    /// the edge is asked. What has been carried along is not known here.
     bool
-    asks_in_liquid() const;
+    jumps_in(const Point<dim> &centre, const double edge, const double time, const bool while_growing) const;
+
+    /// Can either ask for more than the interior level?
+    bool
+    asks_in_liquid(const double time) const;
 
   private:
+    /// Can jumps_in() find any?
+    bool
+    may_jump(const double time) const;
+
     /// Mesh/Size. Throws a UserError where it is negative or no number.
     double
     size_by_formula(const Point<dim> &x, const double time) const;
