@@ -59,7 +59,6 @@ namespace treacle
           mesh->box().get_boundary_points();
       return prm;
     }
-
   } // namespace
 
   template <int dim>
@@ -131,8 +130,7 @@ namespace treacle
   Simulator<dim>::start()
   {
     const auto section = timing.section("set-up");
-    const auto mesh =
-      imported ? imported : initial_mesh<dim>(comm, prm.mesh, scene);
+    const auto mesh    = imported ? imported : initial_mesh<dim>(comm, prm.mesh, scene);
     check_bodies(*mesh, scene);
     liquid.mesh_data  = std::make_shared<const MeshData<dim>>(*mesh, scene);
     liquid.state      = std::make_unique<State<dim>>(mesh);

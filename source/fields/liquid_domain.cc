@@ -6,7 +6,6 @@
 #include <treacle/fields/liquid_domain.h>
 #include <treacle/fields/viscosity_jumps.h>
 
-
 namespace treacle
 {
   template <int dim>

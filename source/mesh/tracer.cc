@@ -37,9 +37,7 @@ namespace treacle
     for (unsigned int k = 0; k < fields.size(); ++k)
       {
         const VertexValues<dim> f = mesh.values(location.cell, *fields[k].value);
-        result[k]                 = 0;
-        for (unsigned int i = 0; i <= dim; ++i)
-          result[k] += location.lambda[i] * f[i];
+        result[k]                 = interpolate(f, location.lambda);
         if (fields[k].correction != nullptr)
           {
             const VertexValues<dim> e = mesh.values(location.cell, *fields[k].correction);

@@ -215,22 +215,16 @@ namespace treacle
   {
     if (!may_jump(time))
       return false;
-    const bool is_advected = scene.has_advected_material();
-    double     least = std::numeric_limits<double>::max(), most = 0;
-    bool       differs = false;
-    const auto take    = [&](Point<dim> x) {
+    const Material<dim> *there   = scene.has_advected_material() ? &scene.initial_material(centre) : nullptr;
+    bool                 differs = false;
+    double               least = std::numeric_limits<double>::max(), most = 0;
+    const auto           take = [&](Point<dim> x) {
       for (unsigned int d = 0; d < dim; ++d)
         x[d] = std::clamp(x[d], prm.lower_corner[d], prm.upper_corner[d]);
-      const auto viscosity_of = [&](const Material<dim> &liquid) { return liquid.viscosity(x, time); };
-      double     mu           = 0;
-      if (is_advected)
-        {
-          const Material<dim> &here = scene.initial_material(x), &there = scene.initial_material(centre);
-          mu      = viscosity_of(here);
-          differs = differs || mu != viscosity_of(there) || here.density(x, time) != there.density(x, time);
-        }
-      else
-        mu = scene.viscosity(x, time);
+      const Material<dim> *here = there ? &scene.initial_material(x) : nullptr;
+      const double         mu   = here ? here->viscosity(x, time) : scene.viscosity(x, time);
+      if (here != there)
+        differs = differs || mu != there->viscosity(x, time) || here->density(x, time) != there->density(x, time);
       least = std::min(least, mu);
       most  = std::max(most, mu);
     };
