@@ -5,6 +5,7 @@
 #include <treacle/fields/carried_in_cell.h>
 #include <treacle/fields/gradients.h>
 #include <treacle/mesh/surface_size.h>
+#include <treacle/transport/bands.h>
 #include <treacle/transport/sizing.h>
 
 namespace treacle

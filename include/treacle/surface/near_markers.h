@@ -6,6 +6,7 @@
 
 #include <treacle/base/exchange.h>
 #include <treacle/fields/marker.h>
+#include <treacle/mesh/mesh.h>
 
 #include <deal.II/base/array_view.h>
 
