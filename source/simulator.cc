@@ -175,8 +175,7 @@ namespace treacle
     auto [loaded, progress] = imported ?
                                 checkpoint.load(imported) :
                                 checkpoint.load(with_box(prm.mesh, scene));
-    liquid.state            = std::make_unique<State<dim>>(std::move(loaded));
-    State<dim> &state       = *liquid.state;
+    State<dim> &state       = loaded;
     frame                   = progress.frame;
     require(std::abs(time_step.frame_time(frame) - state.time) <= 1e-9 * state.time,
             "Frame interval: it must be the one of the run that is resumed, for frame " +
@@ -186,12 +185,10 @@ namespace treacle
     if (state.before &&
         (!time_step.is_second_order() || state.before->v.has_value() != prm.steps.advection))
       state.before.reset();
-    volume           = progress.scalars.at("volume");
-    liquid.mesh_data = std::make_shared<const MeshData<dim>>(*state.mesh, scene);
-    liquid.surface   = std::make_unique<const SurfaceGeometry<dim>>(state.mesh, state.phi);
-    liquid.find(prm.liquid_domain);
+    volume = progress.scalars.at("volume");
+    liquid = Liquid<dim>::of(std::make_shared<State<dim>>(std::move(state)), scene, prm.liquid_domain);
     open_output(true);
-    log->line("resumed at t = " + digits(state.time) + " s, frame " + std::to_string(frame));
+    log->line("resumed at t = " + digits(liquid.state->time) + " s, frame " + std::to_string(frame));
   }
 
   template <int dim>
@@ -241,13 +238,16 @@ namespace treacle
                   info.dynamics.pressure_iterations,
                   info.wall_time);
     log->line(text);
-    if (const unsigned int n = info.repetitions - info.surprises; n > 0)
-      log->line("the step was repeated " + std::to_string(n) +
-                " times with half its size, for the surface won or lost more than 1 % of the volume"
-                "; left of it: " + digits(100 * info.drift) + " %");
-    if (info.surprises > 0)
-      log->line("the step was repeated " + std::to_string(info.surprises) +
-                " times with half its size, for what viscosity had held began to move");
+    const auto repeated = [&](const unsigned int times, const std::string &reason) {
+      if (times > 0)
+        log->line("the step was repeated " + std::to_string(times) + " times with half its size, for " + reason);
+    };
+    repeated(info.repetitions.volume,
+             "the surface won or lost more than 1 % of the volume; left of it: " + digits(100 * info.drift) + " %");
+    repeated(info.repetitions.motion, "what viscosity had held began to move");
+    repeated(info.repetitions.energy,
+             "the liquid gained more energy than forces can have given it; left of it: " +
+               digits(100 * info.excess) + " %");
     const double drift = statistics->last("Volume drift");
     if (std::abs(drift) > warned_drift + 0.05)
       {

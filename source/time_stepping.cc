@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/maximum.h>
+#include <treacle/dynamics/energy_budget.h>
 #include <treacle/time_stepping.h>
 
 namespace treacle
@@ -12,6 +13,11 @@ namespace treacle
     constexpr double largest_drift = 0.01;
     /// What moves by less is not repeated.
     constexpr double half_a_leaf = 0.5;
+    /// Of the kinetic energy and the range of the potential one, that a step may gain before
+    /// it is repeated, and beyond which the run stops.
+    constexpr double largest_gain = 0.05, hopeless_gain = 1;
+    /// Times that a step is halved for that.
+    constexpr unsigned int most_halvings = 4;
 
     /// The liquid where it is, with another velocity.
     template <int dim>
@@ -31,27 +37,46 @@ namespace treacle
     if (movement.time_step.is_second_order() && !liquid.state->before)
       find_velocity_before(liquid, size.dt);
     StepInfo<dim> info;
-    if (!switches.surface || size.dt <= size.falling)
-      take(liquid, volume, size.dt, info);
+    if (switches.surface)
+      take_with_care(liquid, volume, size, info);
     else
-      {
-        // what was held may have begun to fall: what it did before tells nothing of how
-        const Liquid<dim> old        = liquid;
-        const double      old_volume = volume;
-        double            dt         = size.dt;
-        while (take(liquid, volume, dt, info) > half_a_leaf * old.state->mesh->finest_size() &&
-               info.dt > size.falling)
-          {
-            liquid = old;
-            volume = old_volume;
-            dt     = 0.5 * info.dt;
-            find_velocity_before(liquid, dt);
-            ++info.repetitions;
-            ++info.surprises;
-          }
-      }
+      take(liquid, volume, size.dt, info);
     info.wall_time = wall.wall_time();
     return info;
+  }
+
+  template <int dim>
+  void
+  TimeStepping<dim>::take_with_care(Liquid<dim>    &liquid,
+                                    double         &volume,
+                                    const StepSize &size,
+                                    StepInfo<dim>  &info) const
+  {
+    const std::shared_ptr<State<dim>> old        = liquid.state;
+    const double                      old_volume = volume;
+    const EnergyBudget<dim>           budget(*old, *liquid.domain);
+    for (double dt = size.dt;; dt = 0.5 * info.dt)
+      {
+        const double distance = take(liquid, volume, dt, info);
+        info.excess           = budget.excess(
+          *liquid.state, *liquid.domain, {info.dt, info.dynamics.power, info.emitted});
+        if (size.dt > size.falling && info.dt > size.falling &&
+            distance > half_a_leaf * old->mesh->finest_size())
+          ++info.repetitions.motion;
+        else if (info.excess > largest_gain && info.repetitions.energy < most_halvings)
+          ++info.repetitions.energy;
+        else
+          break;
+        liquid = Liquid<dim>::of(old, scene, liquid_domain);
+        volume = old_volume;
+        // what was held may have begun to fall: what it did before tells nothing of how
+        if (movement.time_step.is_second_order())
+          find_velocity_before(liquid, 0.5 * info.dt);
+      }
+    require(info.excess <= hopeless_gain,
+            "At t = " + digits(liquid.state->time) + " s the liquid has " + digits(100 * info.excess) +
+              " % more energy than forces can have given it, with a step of " + digits(info.dt) +
+              " s. Lower Maximum time step or Maximum CFL number, or raise Mesh/Surface level.");
   }
 
   namespace
@@ -130,7 +155,7 @@ namespace treacle
         liquid     = std::move(half);
         difference = half_difference;
         moved      = std::move(half_moved);
-        ++info.repetitions;
+        ++info.repetitions.volume;
       }
     find(liquid);
     info.dt      = difference.dt;

@@ -29,13 +29,22 @@ namespace treacle
       , timing(timing)
     {}
 
-    /// By a step, or less if the surface would win or lose too much or be too far from where the new
-    /// velocity takes it, with the volume that the liquid should have (m^dim) before it, and
+    /// By a step, or less if the surface would win or lose too much, be too far from where the new
+    /// velocity takes it, or the liquid gain energy from nowhere, with the volume that the liquid should have (m^dim) before it, and
     /// after it.
     StepInfo<dim>
     advance(Liquid<dim> &liquid, double &volume, const StepSize &size) const;
 
   private:
+    /// Of a size, or halves of it until the surface is where the new velocity takes it, and the
+    /// liquid has no more energy than forces can have given it. Throws a UserError on all ranks where
+    /// it never has less.
+    void
+    take_with_care(Liquid<dim>    &liquid,
+                   double         &volume,
+                   const StepSize &size,
+                   StepInfo<dim>  &info) const;
+
     /// Of a size. Returns how far the surface is from where it would be, had it known the
     /// velocity to come (m).
     double

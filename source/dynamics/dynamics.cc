@@ -146,6 +146,7 @@ namespace treacle
       if (pressure)
         reactions.add_pressure(state.pressure, step);
       info.loads              = reactions.loads(step);
+      info.power              = reactions.power(step);
       info.maximum_divergence = PressureSystem<dim>::maximum_divergence(state, domain);
     }
   };

@@ -161,7 +161,12 @@ namespace treacle
     add_measures(row, measures);
     row.number("Maximum divergence (1/s)", info.dynamics.maximum_divergence);
     row.number("Drift before correction", info.drift);
-    row.count("Repetitions", info.repetitions);
+    row.number("Energy excess", info.excess);
+    row.number("CFL number", measures.maximum_speed * info.dt / domain.mesh.finest_size());
+    row.count("Repetitions", info.repetitions.all());
+    row.count("Repetitions for volume", info.repetitions.volume);
+    row.count("Repetitions for motion", info.repetitions.motion);
+    row.count("Repetitions for energy", info.repetitions.energy);
     row.count("Clamped faces", domain.n_clamped_faces);
     row.count("Rebuilds", n_rebuilds);
     row.count("Viscosity iterations", info.dynamics.viscosity_iterations);

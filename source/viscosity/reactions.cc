@@ -100,7 +100,10 @@ namespace treacle
               // forces and, as stress is symmetric, moments of a part sum to zero: the wall's
               // are those of the other nodes turned round
               if (c < mesh.n_owned_cells())
-                add(body_of_node(deepest), mesh.node_position[node], -impulse);
+                add(body_of_node(deepest),
+                    mesh.node_position[node],
+                    -impulse,
+                    domain.prescribed[deepest]);
             }
       }
   }
@@ -131,6 +134,7 @@ namespace treacle
         if (domain.open_fraction[f] == 1 || jump == 0)
           continue;
         const Tensor<1, dim> impulse = -step * jump * mesh.face_area[f] * mesh.face_normal[f];
+        work -= step * jump * mesh.face_area[f] * (1 - domain.open_fraction[f]) * domain.solid_velocity[f];
         std::array<Point<dim>, dim> x;
         VertexValues<dim - 1>       held;
         for (unsigned int i = 0; i < dim; ++i)
@@ -144,11 +148,12 @@ namespace treacle
           is_wall ? negative_fraction<dim - 1>(held) : 1 - domain.open_fraction[f];
         const Point<dim> held_centre = negative_centroid<dim>(x, held);
         if (part > 0)
-          add(holder(held_centre), held_centre, part * impulse);
+          add(holder(held_centre), held_centre, part * impulse, Tensor<1, dim>());
         if (is_wall && part < 1)
           add(domain.scene.n_solids(),
               Point<dim>((mesh.face_centre[f] - part * held_centre) / (1 - part)),
-              (1 - part) * impulse);
+              (1 - part) * impulse,
+              Tensor<1, dim>());
       }
   }
 
@@ -163,6 +168,13 @@ namespace treacle
         load.torque = -Utilities::MPI::sum(load.torque, domain.mesh.communicator()) / step;
       }
     return result;
+  }
+
+  template <int dim>
+  double
+  Reactions<dim>::power(const double step) const
+  {
+    return Utilities::MPI::sum(work, domain.mesh.communicator()) / step;
   }
 
   template <int dim>
@@ -194,15 +206,17 @@ namespace treacle
     for (unsigned int d = 0; d < dim; ++d)
       if (domain.constrained[node] >> d & 1)
         prescribed[d] = impulse[d];
-    add(body_of_node(node), domain.mesh.node_position[node], prescribed);
+    add(body_of_node(node), domain.mesh.node_position[node], prescribed, domain.prescribed[node]);
   }
 
   template <int dim>
   void
   Reactions<dim>::add(const unsigned int    body,
                       const Point<dim>     &x,
-                      const Tensor<1, dim> &impulse)
+                      const Tensor<1, dim> &impulse,
+                      const Tensor<1, dim> &velocity)
   {
+    work += impulse * velocity;
     if (body == none)
       return;
     sums[body].force += impulse;

@@ -60,7 +60,8 @@ namespace treacle
       unsigned int fallbacks            = 0; ///< coupled solves that were split instead
       double       maximum_divergence   = 0; ///< 1/s
 
-      std::vector<Load<dim>> loads; ///< on solids and walls, mean over the step
+      std::vector<Load<dim>> loads;     ///< on solids and walls, mean over the step
+      double                 power = 0; ///< of what solids and emitters do to the liquid (W)
     };
 
     /// Velocity and pressure of the liquid at the state's time, the end of the difference's step.

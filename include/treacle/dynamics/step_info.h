@@ -8,6 +8,20 @@
 
 namespace treacle
 {
+  /// How often a step was taken again with half its size, by reason.
+  struct Repetitions
+  {
+    unsigned int volume = 0; ///< the surface won or lost too much of it
+    unsigned int motion = 0; ///< the new velocity takes the surface elsewhere
+    unsigned int energy = 0; ///< the liquid had more than forces can have given it
+
+    unsigned int
+    all() const
+    {
+      return volume + motion + energy;
+    }
+  };
+
   /// What a step reports beside the state it leaves.
   template <int dim>
   struct StepInfo
@@ -16,10 +30,10 @@ namespace treacle
     bool   rebuilt   = false; ///< the mesh is new
     double emitted   = 0;     ///< volume from emitters (m^dim)
     double drift     = 0;     ///< of the volume, relative, before it was corrected
+    double excess    = 0;     ///< of kinetic energy over what forces can have given, see EnergyBudget
     double wall_time = 0;     ///< s
 
-    unsigned int repetitions = 0; ///< with half the size
-    unsigned int surprises   = 0; ///< those for a velocity that came unexpected, not for the drift
+    Repetitions repetitions;
 
     typename Dynamics<dim>::Info dynamics;
   };

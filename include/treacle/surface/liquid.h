@@ -14,6 +14,20 @@ namespace treacle
   template <int dim>
   struct Liquid
   {
+    /// All of it, of a state.
+    static Liquid
+    of(std::shared_ptr<State<dim>>                    state,
+       const Scene<dim>                              &scene,
+       const typename LiquidDomain<dim>::Parameters &parameters)
+    {
+      Liquid result{std::make_shared<const MeshData<dim>>(*state->mesh, scene),
+                    state,
+                    std::make_shared<const SurfaceGeometry<dim>>(state->mesh, state->phi),
+                    nullptr};
+      result.find(parameters);
+      return result;
+    }
+
     std::shared_ptr<const MeshData<dim>>        mesh_data;
     std::shared_ptr<State<dim>>                 state;
     std::shared_ptr<const SurfaceGeometry<dim>> surface;

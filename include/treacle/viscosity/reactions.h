@@ -55,6 +55,10 @@ namespace treacle
     std::vector<Load<dim>>
     loads(const double step) const;
 
+    /// What solids and emitters give to the liquid by moving, mean over step (W). Collective.
+    double
+    power(const double step) const;
+
   private:
     static constexpr unsigned int none = numbers::invalid_unsigned_int;
 
@@ -76,13 +80,18 @@ namespace treacle
     void
     add_at_node(const LocalIndex node, const Tensor<1, dim> &impulse);
 
+    /// At a point of a body with a velocity.
     void
-    add(const unsigned int body, const Point<dim> &x, const Tensor<1, dim> &impulse);
+    add(const unsigned int    body,
+        const Point<dim>     &x,
+        const Tensor<1, dim> &impulse,
+        const Tensor<1, dim> &velocity);
 
     const LiquidDomain<dim> &domain;
     const double             time;
     std::vector<Point<dim>>  centre; ///< of each body
     std::vector<Load<dim>>   sums;   ///< impulses from the bodies, on this rank
+    double                   work = 0; ///< of solids and emitters, on this rank (J)
   };
 } // namespace treacle
 

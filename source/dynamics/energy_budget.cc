@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exchange.h>
+#include <treacle/base/maximum.h>
+#include <treacle/dynamics/energy_budget.h>
+
+namespace treacle
+{
+  template <int dim>
+  EnergyBudget<dim>::EnergyBudget(const State<dim> &state, const LiquidDomain<dim> &domain)
+    : before(sums(state, domain))
+  {}
+
+  template <int dim>
+  typename EnergyBudget<dim>::Sums
+  EnergyBudget<dim>::sums(const State<dim> &state, const LiquidDomain<dim> &domain)
+  {
+    const Mesh<dim>     &mesh = domain.mesh;
+    const Tensor<1, dim> box  = domain.scene.upper_corner() - domain.scene.lower_corner();
+    Tensor<1, 3>         sums;
+    std::string          error;
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      if (const double mass = domain.node_mass[node]; mass > 0)
+        keep_error(error, [&] {
+          const Tensor<1, dim> v = state.v.value(node);
+          const Tensor<1, dim> g = domain.scene.gravity(mesh.node_position[node], state.time);
+          sums[0] += 0.5 * mass * v.norm_square();
+          sums[1] += mass * (g * v);
+          for (unsigned int d = 0; d < dim; ++d)
+            sums[2] += mass * std::abs(g[d]) * box[d];
+        });
+    throw_first(mesh.communicator(), error);
+    sums = Utilities::MPI::sum(sums, mesh.communicator());
+    return {sums[0], sums[1], sums[2]};
+  }
+
+  namespace
+  {
+    /// Of a volume of what comes from an emitter, at most (J/m^dim). Collective.
+    template <int dim>
+    double
+    emitted_energy(const LiquidDomain<dim> &domain)
+    {
+      double speed = 0, density = 0;
+      for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
+        if (domain.is_emitter_node[node])
+          speed = std::max(speed, domain.prescribed[node].norm());
+      for (LocalIndex c = 0; c < domain.mesh.n_owned_cells(); ++c)
+        if (domain.is_active_cell[c])
+          density = std::max(density, domain.density[c]);
+      const auto most = largest(domain.mesh.communicator(), std::array<double, 2>{{speed, density}});
+      return 0.5 * most[1] * most[0] * most[0];
+    }
+  } // namespace
+
+  template <int dim>
+  double
+  EnergyBudget<dim>::excess(const State<dim>        &state,
+                            const LiquidDomain<dim> &domain,
+                            const Input             &input) const
+  {
+    const Sums   after   = sums(state, domain);
+    const double gravity = input.dt * std::max({before.power, after.power, 0.});
+    const double others  = input.dt * std::max(input.power, 0.) +
+                          (input.emitted > 0 ? input.emitted * emitted_energy(domain) : 0.);
+    const double scale   = before.kinetic + before.potential + others;
+    const double more    = after.kinetic - before.kinetic - gravity - others;
+    return more > 0 ? more / scale : 0.;
+  }
+
+  template class EnergyBudget<2>;
+  template class EnergyBudget<3>;
+} // namespace treacle
