@@ -6,6 +6,7 @@
 #include <treacle/fields/moved_points.h>
 #include <treacle/transport/advection.h>
 #include <treacle/transport/back_and_forth.h>
+#include <treacle/transport/face_residual.h>
 #include <treacle/transport/surface_velocity.h>
 #include <treacle/transport/time_step.h>
 #include <treacle/transport/velocity_in_time.h>
@@ -65,6 +66,7 @@ namespace treacle
                             const BackwardDifference   &difference)
     : prm(parameters)
     , old(old)
+    , domain(domain)
     , surface(surface)
     , difference(difference)
     , dt(difference.dt)
@@ -293,6 +295,8 @@ namespace treacle
     Carried now   = carried(fields_of(old.v), velocity, dt, reach);
     Paths   paths = paths_to(x, now, std::move(guesses));
     add(faces.begin(), 1, paths.values);
+    if (&mesh == old.mesh.get())
+      keep_what_nodes_miss(old, domain, dt, faces, state.u);
     if (difference.before != 0)
       {
         const Past            past   = this->past(std::move(now), reach);

@@ -158,6 +158,7 @@ namespace treacle
 
     const Parameters            prm;
     const State<dim>           &old;
+    const LiquidDomain<dim>    &domain;
     const SurfaceGeometry<dim> &surface;
     const BackwardDifference    difference;
     const double                dt;
