@@ -7,6 +7,12 @@
 
 namespace treacle
 {
+  namespace
+  {
+    /// Of the finest leaf: liquid that moves by less in a step is at rest, but for what solvers leave.
+    constexpr double least_distance = 1e-3;
+  } // namespace
+
   template <int dim>
   EnergyBudget<dim>::EnergyBudget(const State<dim> &state, const LiquidDomain<dim> &domain)
     : before(sums(state, domain))
@@ -18,21 +24,23 @@ namespace treacle
   {
     const Mesh<dim>     &mesh = domain.mesh;
     const Tensor<1, dim> box  = domain.scene.upper_corner() - domain.scene.lower_corner();
-    Tensor<1, 3>         sums;
+    Sums                 sums;
     std::string          error;
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       if (const double mass = domain.node_mass[node]; mass > 0)
         keep_error(error, [&] {
           const Tensor<1, dim> v = state.v.value(node);
           const Tensor<1, dim> g = domain.scene.gravity(mesh.node_position[node], state.time);
-          sums[0] += 0.5 * mass * v.norm_square();
-          sums[1] += mass * (g * v);
+          sums.kinetic += 0.5 * mass * v.norm_square();
+          sums.power += mass * (g * v);
           for (unsigned int d = 0; d < dim; ++d)
-            sums[2] += mass * std::abs(g[d]) * box[d];
+            sums.potential += mass * std::abs(g[d]) * box[d];
+          sums.mass += mass;
         });
     throw_first(mesh.communicator(), error);
-    sums = Utilities::MPI::sum(sums, mesh.communicator());
-    return {sums[0], sums[1], sums[2]};
+    MPI_Allreduce(
+      MPI_IN_PLACE, &sums, sizeof sums / sizeof(double), MPI_DOUBLE, MPI_SUM, mesh.communicator());
+    return sums;
   }
 
   namespace
@@ -64,7 +72,8 @@ namespace treacle
     const double gravity = input.dt * std::max({before.power, after.power, 0.});
     const double others  = input.dt * std::max(input.power, 0.) +
                           (input.emitted > 0 ? input.emitted * emitted_energy(domain) : 0.);
-    const double scale   = before.kinetic + before.potential + others;
+    const double crawl   = least_distance * domain.mesh.finest_size() / input.dt;
+    const double scale   = before.kinetic + before.potential + others + 0.5 * after.mass * crawl * crawl;
     const double more    = after.kinetic - before.kinetic - gravity - others;
     return more > 0 ? more / scale : 0.;
   }

@@ -25,20 +25,22 @@ namespace treacle
       double emitted; ///< volume (m^dim)
     };
 
-    /// By how much the liquid after the step has more, over its kinetic energy before
-    /// plus the range of the potential one in the box; 0 if it has not. Collective.
+    /// By how much the liquid after the step has more, over its kinetic energy before plus what it was
+    /// given, the range of the potential one in the box, and the kinetic energy of liquid that moves by
+    /// a thousandth of the finest leaf in the step; 0 if it has not. Collective.
     double
     excess(const State<dim>        &state,
            const LiquidDomain<dim> &domain,
            const Input             &input) const;
 
   private:
-    /// Sums over nodes.
+    /// Sums over nodes; doubles only, so that one call adds those of all ranks.
     struct Sums
     {
       double kinetic   = 0; ///< J
       double power     = 0; ///< of gravity (W)
       double potential = 0; ///< its range in the box (J)
+      double mass      = 0; ///< kg
     };
 
     static Sums
