@@ -172,11 +172,9 @@ namespace treacle
   void
   Simulator<dim>::resume()
   {
-    auto [loaded, progress] = imported ?
-                                checkpoint.load(imported) :
-                                checkpoint.load(with_box(prm.mesh, scene));
-    State<dim> &state       = loaded;
-    frame                   = progress.frame;
+    auto [state, progress] =
+      imported ? checkpoint.load(imported) : checkpoint.load(with_box(prm.mesh, scene));
+    frame = progress.frame;
     require(std::abs(time_step.frame_time(frame) - state.time) <= 1e-9 * state.time,
             "Frame interval: it must be the one of the run that is resumed, for frame " +
               std::to_string(frame) + " is at t = " + digits(state.time) + " s.");

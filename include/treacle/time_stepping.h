@@ -30,8 +30,8 @@ namespace treacle
     {}
 
     /// By a step, or less if the surface would win or lose too much, be too far from where the new
-    /// velocity takes it, or the liquid gain energy from nowhere, with the volume that the liquid should have (m^dim) before it, and
-    /// after it.
+    /// velocity takes it, or the liquid gain energy from nowhere, with the volume that the liquid should
+    /// have (m^dim) before it, and after it.
     StepInfo<dim>
     advance(Liquid<dim> &liquid, double &volume, const StepSize &size) const;
 

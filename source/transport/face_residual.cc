@@ -37,7 +37,7 @@ namespace treacle
           Tensor<1, dim> v;
           for (const LocalIndex node : mesh.face_nodes[f])
             v += old.v.value(node) / dim;
-          const double moved = dt * v.norm() / (between_faces * size_at_face(mesh, f));
+          const double moved  = dt * v.norm() / (between_faces * size_at_face(mesh, f));
           const double missed = old.u.local_element(f) - v * mesh.face_normal[f];
           u.local_element(f) += std::max(0., 1 - moved) * missed;
         }

@@ -100,10 +100,10 @@ namespace treacle
               // forces and, as stress is symmetric, moments of a part sum to zero: the wall's
               // are those of the other nodes turned round
               if (c < mesh.n_owned_cells())
-                add(body_of_node(deepest),
-                    mesh.node_position[node],
-                    -impulse,
-                    domain.prescribed[deepest]);
+                {
+                  add(body_of_node(deepest), mesh.node_position[node], -impulse);
+                  work -= impulse * domain.prescribed[deepest];
+                }
             }
       }
   }
@@ -148,12 +148,11 @@ namespace treacle
           is_wall ? negative_fraction<dim - 1>(held) : 1 - domain.open_fraction[f];
         const Point<dim> held_centre = negative_centroid<dim>(x, held);
         if (part > 0)
-          add(holder(held_centre), held_centre, part * impulse, Tensor<1, dim>());
+          add(holder(held_centre), held_centre, part * impulse);
         if (is_wall && part < 1)
           add(domain.scene.n_solids(),
               Point<dim>((mesh.face_centre[f] - part * held_centre) / (1 - part)),
-              (1 - part) * impulse,
-              Tensor<1, dim>());
+              (1 - part) * impulse);
       }
   }
 
@@ -206,17 +205,16 @@ namespace treacle
     for (unsigned int d = 0; d < dim; ++d)
       if (domain.constrained[node] >> d & 1)
         prescribed[d] = impulse[d];
-    add(body_of_node(node), domain.mesh.node_position[node], prescribed, domain.prescribed[node]);
+    add(body_of_node(node), domain.mesh.node_position[node], prescribed);
+    work += prescribed * domain.prescribed[node];
   }
 
   template <int dim>
   void
   Reactions<dim>::add(const unsigned int    body,
                       const Point<dim>     &x,
-                      const Tensor<1, dim> &impulse,
-                      const Tensor<1, dim> &velocity)
+                      const Tensor<1, dim> &impulse)
   {
-    work += impulse * velocity;
     if (body == none)
       return;
     sums[body].force += impulse;

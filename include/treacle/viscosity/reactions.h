@@ -80,12 +80,8 @@ namespace treacle
     void
     add_at_node(const LocalIndex node, const Tensor<1, dim> &impulse);
 
-    /// At a point of a body with a velocity.
     void
-    add(const unsigned int    body,
-        const Point<dim>     &x,
-        const Tensor<1, dim> &impulse,
-        const Tensor<1, dim> &velocity);
+    add(const unsigned int body, const Point<dim> &x, const Tensor<1, dim> &impulse);
 
     const LiquidDomain<dim> &domain;
     const double             time;
