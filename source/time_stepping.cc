@@ -4,6 +4,7 @@
 #include <treacle/base/maximum.h>
 #include <treacle/dynamics/energy_budget.h>
 #include <treacle/time_stepping.h>
+#include <treacle/transport/face_residual.h>
 
 namespace treacle
 {
@@ -120,14 +121,22 @@ namespace treacle
   {
     if (!state.before || !state.before->v)
       return;
-    const double least = 0.1 * maximum_speed(state, domain);
-    for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
+    const Mesh<dim> &mesh  = domain.mesh;
+    const double     least = 0.1 * maximum_speed(state, domain);
+    Vector           blow  = mesh.zeros(mesh.nodes);
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
         const Tensor<1, dim> v = state.v.value(node), w = expected.value(node);
         if ((v - w).norm() > std::max(least, 0.5 * std::max(v.norm(), w.norm())))
-          state.before->v->set(node, v);
+          {
+            state.before->v->set(node, v);
+            blow.local_element(node) = 1;
+          }
       }
     state.before->v->update_ghost_values();
+    blow.update_ghost_values();
+    if (state.before->u)
+      forget_missed(state, domain, blow);
   }
 
   template <int dim>
@@ -183,7 +192,7 @@ namespace treacle
     dynamics.advance(ahead, difference, timing);
     extend_velocity(ahead);
     liquid.state->before =
-      Transport<dim>::mirrored(*liquid.state, *ahead.state, dt, switches.advection);
+      Transport<dim>::mirrored(liquid, ahead, dt, switches.advection);
   }
 
   template <int dim>

@@ -191,7 +191,10 @@ namespace treacle
     std::ostringstream out;
     out << std::setprecision(17) << "Time = " << state.time << "\nStep = " << state.step
         << "\nVelocity before = "
-        << (!state.before ? "none" : state.before->v ? "nodes" : "faces")
+        << (!state.before     ? "none" :
+            !state.before->v  ? "faces" :
+            !state.before->u  ? "nodes" :
+                                "nodes and faces")
         << "\nStep before = " << (state.before ? state.before->dt : 0.)
         << "\nAdvected material = " << (state.material ? "true" : "false")
         << "\nMarkers = " << save(state.markers, "markers") << '\n';
@@ -213,9 +216,9 @@ namespace treacle
       {
         state.before.emplace();
         state.before->dt = info.number("Step before");
-        if (before == "nodes")
+        if (before != "faces")
           state.before->v.emplace(mesh->nodes);
-        else
+        if (before != "nodes")
           state.before->u.emplace(mesh->faces);
       }
     state.time = info.number("Time");

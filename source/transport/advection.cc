@@ -171,7 +171,10 @@ namespace treacle
   VelocityBefore<dim>
   Advection<dim>::velocity_before(const Mesh<dim> &mesh) const
   {
-    return {dt, at_nodes_of(mesh, old.v), {}};
+    VelocityBefore<dim> before{dt, at_nodes_of(mesh, old.v), {}};
+    if (&mesh == old.mesh.get())
+      before.u = missed_by_nodes(old, domain);
+    return before;
   }
 
   template <int dim>
@@ -296,7 +299,7 @@ namespace treacle
     Paths   paths = paths_to(x, now, std::move(guesses));
     add(faces.begin(), 1, paths.values);
     if (&mesh == old.mesh.get())
-      keep_what_nodes_miss(old, domain, dt, faces, state.u);
+      keep_what_nodes_miss(old, domain, difference, faces, state.u);
     if (difference.before != 0)
       {
         const Past            past   = this->past(std::move(now), reach);

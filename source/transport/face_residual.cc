@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/fields/face_node.h>
 #include <treacle/transport/face_residual.h>
 
 namespace treacle
@@ -20,39 +21,76 @@ namespace treacle
       return second == invalid ? mesh.cell_size[first] :
                                  std::min(mesh.cell_size[first], mesh.cell_size[second]);
     }
+
+    /// u - P v of a face.
+    template <int dim>
+    double
+    missed(const State<dim> &state, const LocalIndex face)
+    {
+      return state.u.local_element(face) - face_velocity(*state.mesh, state.v, face);
+    }
   } // namespace
+
+  template <int dim>
+  Vector
+  missed_by_nodes(const State<dim> &state, const LiquidDomain<dim> &domain)
+  {
+    const Mesh<dim> &mesh   = *state.mesh;
+    Vector           result = mesh.zeros(mesh.faces);
+    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
+      if (domain.is_liquid_face(f))
+        result.local_element(f) = missed(state, f);
+    result.update_ghost_values();
+    return result;
+  }
 
   template <int dim>
   void
   keep_what_nodes_miss(const State<dim>              &old,
                        const LiquidDomain<dim>       &domain,
-                       const double                   dt,
+                       const BackwardDifference      &difference,
                        const std::vector<LocalIndex> &faces,
                        Vector                        &u)
   {
-    const Mesh<dim> &mesh = domain.mesh;
+    const Mesh<dim> &mesh      = domain.mesh;
+    const bool       remembers = difference.before != 0 && old.before->u;
     for (const LocalIndex f : faces)
       if (domain.is_liquid_face(f))
         {
           Tensor<1, dim> v;
           for (const LocalIndex node : mesh.face_nodes[f])
             v += old.v.value(node) / dim;
-          const double moved  = dt * v.norm() / (between_faces * size_at_face(mesh, f));
-          const double missed = old.u.local_element(f) - v * mesh.face_normal[f];
-          u.local_element(f) += std::max(0., 1 - moved) * missed;
+          const double moved = difference.dt * v.norm() / (between_faces * size_at_face(mesh, f));
+          double       kept  = missed(old, f);
+          if (remembers)
+            kept = difference.now * kept + difference.before * old.before->u->local_element(f);
+          u.local_element(f) += std::max(0., 1 - moved) * kept;
         }
   }
 
-  template void
-  keep_what_nodes_miss(const State<2> &,
-                       const LiquidDomain<2> &,
-                       const double,
-                       const std::vector<LocalIndex> &,
-                       Vector &);
-  template void
-  keep_what_nodes_miss(const State<3> &,
-                       const LiquidDomain<3> &,
-                       const double,
-                       const std::vector<LocalIndex> &,
-                       Vector &);
+  template <int dim>
+  void
+  forget_missed(State<dim> &state, const LiquidDomain<dim> &domain, const Vector &blow)
+  {
+    const Mesh<dim> &mesh = *state.mesh;
+    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
+      if (domain.is_liquid_face(f) &&
+          std::any_of(mesh.face_nodes[f].begin(), mesh.face_nodes[f].end(), [&](const auto node) {
+            return blow.local_element(node) != 0;
+          }))
+        state.before->u->local_element(f) = missed(state, f);
+    state.before->u->update_ghost_values();
+  }
+
+#define INSTANTIATE(dim)                                                             \
+  template Vector missed_by_nodes(const State<dim> &, const LiquidDomain<dim> &);    \
+  template void   forget_missed(State<dim> &, const LiquidDomain<dim> &, const Vector &); \
+  template void   keep_what_nodes_miss(const State<dim> &,                           \
+                                     const LiquidDomain<dim> &,                    \
+                                     const BackwardDifference &,                   \
+                                     const std::vector<LocalIndex> &,              \
+                                     Vector &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace treacle

@@ -7,6 +7,7 @@
 #include <treacle/surface/carried_material.h>
 #include <treacle/surface/emission.h>
 #include <treacle/surface/extrapolation.h>
+#include <treacle/transport/face_residual.h>
 #include <treacle/transport/remesh.h>
 #include <treacle/transport/transport.h>
 #include <treacle/transport/velocity_in_time.h>
@@ -188,21 +189,18 @@ namespace treacle
 
   template <int dim>
   VelocityBefore<dim>
-  Transport<dim>::mirrored(const State<dim> &now,
-                           const State<dim> &ahead,
-                           const double      dt,
-                           const bool        is_advected)
+  Transport<dim>::mirrored(const Liquid<dim> &now,
+                           const Liquid<dim> &ahead,
+                           const double       dt,
+                           const bool         is_advected)
   {
-    VelocityBefore<dim> before{dt, {}, {}};
+    VelocityBefore<dim> before{dt, {}, is_advected ? missed_by_nodes(*now.state, *now.domain) : now.state->u};
     if (is_advected)
-      before.v = combined(2, now.v, -1, ahead.v);
-    else
-      {
-        before.u = now.u;
-        before.u->zero_out_ghost_values();
-        before.u->sadd(2, -1, ahead.u);
-        before.u->update_ghost_values();
-      }
+      before.v = combined(2, now.state->v, -1, ahead.state->v);
+    before.u->zero_out_ghost_values();
+    before.u->sadd(
+      2, -1, is_advected ? missed_by_nodes(*ahead.state, *ahead.domain) : ahead.state->u);
+    before.u->update_ghost_values();
     return before;
   }
 

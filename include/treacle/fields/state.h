@@ -71,7 +71,8 @@ namespace treacle
   {
     double                         dt; ///< since then (s)
     std::optional<NodeVector<dim>> v;  ///< where liquid is advected
-    std::optional<Vector>          u;  ///< where it is not
+    /// Of the faces: where liquid is advected what v misses of it, u - P v, if it was on this mesh.
+    std::optional<Vector>          u;
   };
 
 

@@ -58,7 +58,8 @@ namespace treacle
             const double                     reach,
             const SurfaceMotion              motion = SurfaceMotion::carried) const;
 
-    /// The old velocity at the nodes of a new mesh, for the next backward difference.
+    /// The old velocity at the nodes of a mesh, and on the old one what they miss of it, for the next
+    /// backward difference.
     VelocityBefore<dim>
     velocity_before(const Mesh<dim> &mesh) const;
 

@@ -1,21 +1,35 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#ifndef treacle_transport_face_residual_h
-#define treacle_transport_face_residual_h
+#ifndef treacle_face_residual_h
+#define treacle_face_residual_h
 
+#include <treacle/fields/backward_difference.h>
 #include <treacle/fields/liquid_domain.h>
+#include <treacle/fields/state.h>
 
 namespace treacle
 {
-  /// What the nodes do not know of the old velocity of some owned faces, u - P v, is added to what they have
-  /// of it in a step of @p dt on the same mesh, @p u: as long as the liquid does not get from one face to the
-  /// next. Dropped in each step, it would be lost the faster the smaller the steps are.
+  /// What the nodes do not know of the velocity of faces, u - P v (m/s): of owned liquid faces, others
+  /// have 0.
+  template <int dim>
+  Vector
+  missed_by_nodes(const State<dim> &state, const LiquidDomain<dim> &domain);
+
+  /// Of faces with a node where @p blow is not 0 what nodes miss was before what it is now.
+  template <int dim>
+  void
+  forget_missed(State<dim> &state, const LiquidDomain<dim> &domain, const Vector &blow);
+
+  /// What the nodes do not know of the old velocity of some owned faces, in the manner of the backward
+  /// difference, is added to what they have of it in a step on the same mesh, @p u: as long as the liquid does
+  /// not get from one face to the next. Dropped in each step, it would be lost the faster the smaller the
+  /// steps are.
   template <int dim>
   void
   keep_what_nodes_miss(const State<dim>              &old,
                        const LiquidDomain<dim>       &domain,
-                       const double                   dt,
+                       const BackwardDifference      &difference,
                        const std::vector<LocalIndex> &faces,
                        Vector                        &u);
 } // namespace treacle

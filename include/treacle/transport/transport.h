@@ -78,10 +78,10 @@ namespace treacle
     /// The velocity a step of @p dt before now, had it changed as it does until @p ahead, after
     /// such a step: 2 now - ahead.
     static VelocityBefore<dim>
-    mirrored(const State<dim> &now,
-             const State<dim> &ahead,
-             const double      dt,
-             const bool        is_advected);
+    mirrored(const Liquid<dim> &now,
+             const Liquid<dim> &ahead,
+             const double       dt,
+             const bool         is_advected);
 
     /// Velocity continued into the air as far as the liquid may go in a step.
     void

@@ -35,7 +35,8 @@ class Results:
         return points[numpy.argsort(points[:, 0], kind="stable")]
 
     def energy(self):
-        return self["Kinetic energy (J)"] + self["Potential energy (J)"]
+        """By the masses of nodes: those of faces add up to the kinetic energy only in the mean."""
+        return self["Nodal kinetic energy (J)"] + self["Potential energy (J)"]
 
     def energy_gain(self):
         """The largest rise of the total energy above what it was before, over the
@@ -47,7 +48,7 @@ class Results:
             return 0.
         energy, potential = self.energy(), self["Potential energy (J)"]
         rise = numpy.max(energy - numpy.minimum.accumulate(energy))
-        scale = numpy.max(self["Kinetic energy (J)"]) + numpy.ptp(potential)
+        scale = numpy.max(self["Nodal kinetic energy (J)"]) + numpy.ptp(potential)
         return rise / scale if scale > 1e-10 * numpy.max(abs(energy)) else 0.
 
     def leaf_size(self, level):
