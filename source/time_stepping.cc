@@ -5,6 +5,7 @@
 #include <treacle/dynamics/energy_budget.h>
 #include <treacle/time_stepping.h>
 #include <treacle/transport/face_residual.h>
+#include <treacle/transport/velocity_in_time.h>
 
 namespace treacle
 {
@@ -58,11 +59,11 @@ namespace treacle
     const EnergyBudget<dim>           budget(*old, *liquid.domain);
     for (double dt = size.dt;; dt = 0.5 * info.dt)
       {
-        const double distance = take(liquid, volume, dt, info);
-        info.excess           = budget.excess(
+        const double leaves = take(liquid, volume, dt, info);
+        info.excess         = budget.excess(
           *liquid.state, *liquid.domain, {info.dt, info.dynamics.power, info.emitted});
         if (size.dt > size.falling && info.dt > size.falling &&
-            distance > half_a_leaf * old->mesh->finest_size())
+            leaves > half_a_leaf)
           ++info.repetitions.motion;
         else if (info.excess > largest_gain && info.repetitions.energy < most_halvings)
           ++info.repetitions.energy;
@@ -80,23 +81,6 @@ namespace treacle
               " s. Lower Maximum time step or Maximum CFL number, or raise Mesh/Surface level.");
   }
 
-  namespace
-  {
-    /// Of velocities at active nodes. Collective.
-    template <int dim>
-    double
-    largest_difference(const LiquidDomain<dim> &domain,
-                       const NodeVector<dim>   &v,
-                       const NodeVector<dim>   &w)
-    {
-      double result = 0;
-      for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
-        if (domain.is_active_node[node])
-          result = larger(result, (v.value(node) - w.value(node)).norm());
-      return largest(domain.mesh.communicator(), result);
-    }
-  } // namespace
-
   template <int dim>
   double
   TimeStepping<dim>::take(Liquid<dim>   &liquid,
@@ -108,9 +92,9 @@ namespace treacle
     const NodeVector<dim>    expected   = liquid.state->v;
     info.dynamics                       = dynamics.advance(liquid, difference, timing);
     extend_velocity(liquid);
-    const double surprise = largest_difference(*liquid.domain, liquid.state->v, expected);
     forget_blows(*liquid.state, *liquid.domain, expected);
-    return 0.5 * info.dt * surprise;
+    return 0.5 * info.dt *
+           fastest_crossing(*liquid.domain, combined(1, liquid.state->v, -1, expected));
   }
 
   template <int dim>
@@ -150,8 +134,7 @@ namespace treacle
     BackwardDifference            difference(dt, *old.state);
     typename Transport<dim>::Info moved = transport(liquid, difference, volume);
     const auto is_long = [&] {
-      return difference.dt * maximum_speed(*old.state, *old.domain) >
-             half_a_leaf * old.state->mesh->finest_size();
+      return difference.dt * fastest_crossing(*old.domain, old.state->v) > half_a_leaf;
     };
     while (std::abs(moved.drift) > largest_drift && is_long())
       {

@@ -46,7 +46,7 @@ namespace treacle
                    StepInfo<dim>  &info) const;
 
     /// Of a size. Returns how far the surface is from where it would be, had it known the
-    /// velocity to come (m).
+    /// velocity to come, in leaves.
     double
     take(Liquid<dim> &liquid, double &volume, const double dt, StepInfo<dim> &info) const;
 

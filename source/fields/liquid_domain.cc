@@ -24,7 +24,7 @@ namespace treacle
     prm.add_parameter("Minimum theta",
                       minimum_theta,
                       "Smallest liquid part of the dual edge of a face that the surface cuts.",
-                      Patterns::Double(1e-6, 1));
+                      Patterns::Double(1e-9, 1));
     prm.leave_subsection();
   }
 

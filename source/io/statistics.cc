@@ -6,6 +6,7 @@
 #include <treacle/io/old_table.h>
 #include <treacle/io/statistics.h>
 #include <treacle/scene/bodies.h>
+#include <treacle/transport/time_step.h>
 
 #include <fstream>
 
@@ -162,7 +163,7 @@ namespace treacle
     row.number("Maximum divergence (1/s)", info.dynamics.maximum_divergence);
     row.number("Drift before correction", info.drift);
     row.number("Energy excess", info.excess);
-    row.number("CFL number", measures.maximum_speed * info.dt / domain.mesh.finest_size());
+    row.number("CFL number", info.dt * fastest_crossing(domain, state.v));
     row.count("Repetitions", info.repetitions.all());
     row.count("Repetitions for volume", info.repetitions.volume);
     row.count("Repetitions for motion", info.repetitions.motion);

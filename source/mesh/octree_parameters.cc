@@ -108,6 +108,11 @@ namespace treacle
                       "Whether leaves are of the Surface level where the viscosity of the liquid jumps: where "
                       "it is 1.5 times as large beside a leaf; between advected materials, at t = 0 if they differ at "
                       "all, later by 1.5 times or a quarter of all that there is.");
+    prm.add_parameter("Velocity error",
+                      velocity_error,
+                      "Leaves in the liquid, down to those of the Surface level, are so small that others twice as "
+                      "large would change the velocity by this part of the largest speed; 0: it asks for nothing.",
+                      Patterns::Double(0, 1));
     prm.add_parameter("Maximum cells",
                       maximum_cells,
                       "Where the surface asks for more cells, about, it gets larger leaves than it asks for, "

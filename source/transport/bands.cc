@@ -83,7 +83,10 @@ namespace treacle
     , time(time)
   {
     const std::vector<BandPoint<dim>> none;
-    for (unsigned int level = prm.coarsest_at_surface(); level <= prm.surface_level; ++level)
+    const unsigned int coarsest = prm.velocity_error == 0 ?
+                                    prm.coarsest_at_surface() :
+                                    std::min(prm.coarsest_at_surface(), prm.interior_level + 1);
+    for (unsigned int level = coarsest; level <= prm.surface_level; ++level)
       {
         const auto of_level = points.find(level);
         bands.emplace_back(octree,

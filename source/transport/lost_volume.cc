@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/exchange.h>
+#include <treacle/mesh/surface_size.h>
 #include <treacle/transport/lost_volume.h>
 
 namespace treacle
@@ -186,7 +187,7 @@ namespace treacle
     Vector                       volume = domain.mesh.zeros(domain.mesh.cells);
     std::vector<LostVolume<dim>> left   = lost;
     const Mesh<dim> &mesh    = domain.mesh;
-    const double     largest = mesh.is_lattice() ? mesh.surface_size() : mesh.finest_size();
+    const double     largest = largest_surface_size(mesh);
     for (double offset = 0.5 * mesh.finest_size(); offset < 3 * largest; offset *= 2)
       left = add_to_cells(volume, domain, left, offset);
     volume.compress(VectorOperation::add); // an owner of a leaf does not own all cells over it

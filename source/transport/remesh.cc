@@ -6,6 +6,7 @@
 #include <treacle/transport/bands.h>
 #include <treacle/transport/octree_growth.h>
 #include <treacle/transport/remesh.h>
+#include <treacle/transport/velocity_error.h>
 
 namespace treacle
 {
@@ -29,18 +30,18 @@ namespace treacle
                      const std::vector<Point<dim>>   &next,
                      const std::vector<unsigned int> &level)
     {
-      double furthest = 0;
+      const auto size     = [&](const unsigned int i) { return mesh.octree().parameters().size_of(level[i]); };
+      double     furthest = 0;
       for (unsigned int i = 0; i < now.size(); ++i)
-        furthest = std::max(furthest, now[i].distance(next[i]));
-      const double h = mesh.finest_size();
-      const double s = Utilities::MPI::max(furthest, mesh.communicator()) / h;
+        furthest = std::max(furthest, now[i].distance(next[i]) / size(i));
+      const double s = Utilities::MPI::max(furthest, mesh.communicator());
       if (s == 0 || s > 9)
         return;
       const double n_steps = 3 / std::sqrt(s);
       for (unsigned int i = 0; i < now.size(); ++i)
         {
           const Tensor<1, dim> way      = n_steps * (next[i] - now[i]);
-          const unsigned int   n_points = std::ceil(way.norm() / h);
+          const unsigned int   n_points = std::ceil(way.norm() / size(i));
           for (unsigned int k = 1; k <= n_points; ++k)
             points[level[i]].push_back({next[i] + way * k / n_points, {}});
         }
@@ -92,6 +93,7 @@ namespace treacle
       const std::vector<Point<dim>>  &vertices; ///< of it, after the step
       const std::vector<Marker<dim>> &markers;
       const std::vector<Jump<dim>>   &jumps; ///< of the material that is carried along
+      const std::vector<AskedSize<dim>> &inside; ///< what the velocity asks for
       const Vector                   &size;  ///< that it asks for (m), at nodes
 
       /// With leaves that may be larger by a factor. Markers that left the surface behind are in the
@@ -99,7 +101,9 @@ namespace treacle
       BandPoints<dim>
       points(const double factor) const
       {
-        return points_at(levels(factor));
+        BandPoints<dim> result = points_at(levels(factor));
+        append_inside(result, factor);
+        return result;
       }
 
       /// And where it goes on to.
@@ -110,10 +114,20 @@ namespace treacle
         BandPoints<dim>                 result = points_at(level);
         append_way_ahead(result, mesh, surface.positions, vertices, level);
         append_around_jumps(result);
+        append_inside(result, factor);
         return result;
       }
 
     private:
+      void
+      append_inside(BandPoints<dim> &points, const double factor) const
+      {
+        const OctreeParameters<dim> &prm = mesh.octree().parameters();
+        for (const auto &[x, asked] : inside)
+          if (const unsigned int level = prm.level_of(factor * asked); level > prm.interior_level)
+            points[level].push_back({x, {}});
+      }
+
       /// Two leaves about, and the way of the next steps, so that a new mesh serves for some.
       void
       append_around_jumps(BandPoints<dim> &points) const
@@ -177,7 +191,7 @@ namespace treacle
   template <int dim>
   std::shared_ptr<const Mesh<dim>>
   mesh_for_next_surface(const State<dim>               &state,
-                        const Scene<dim>               &scene,
+                        const LiquidDomain<dim>        &domain,
                         const SurfaceGeometry<dim>     &surface,
                         const Advection<dim>           &advection,
                         const std::vector<Point<dim>>  &next,
@@ -187,6 +201,7 @@ namespace treacle
     const Mesh<dim> &mesh = *state.mesh;
     if (!mesh.is_lattice())
       return state.mesh;
+    const Scene<dim>            &scene  = domain.scene;
     const Octree<dim>           &octree = mesh.octree();
     const OctreeParameters<dim> &prm    = octree.parameters();
     const double                 time   = state.time + dt;
@@ -203,13 +218,14 @@ namespace treacle
     const bool             is_bounded = prm.maximum_cells > 0;
     const Vector           present    = is_bounded ? as_they_are(mesh, size) : Vector();
     const auto             jumps      = jumps_after(state, dt);
-    const NextSurface<dim> moved{mesh, surface.facets, next, markers, jumps, size},
-      held{mesh, surface.facets, next, markers, jumps, is_bounded ? present : size};
+    const auto             inside     = sizes_by_velocity(state, domain, dt);
+    const NextSurface<dim> moved{mesh, surface.facets, next, markers, jumps, inside, size},
+      held{mesh, surface.facets, next, markers, jumps, inside, is_bounded ? present : size};
     const bool is_fine_enough =
       Bands<dim>(octree, scene, time, held.points(too_large), true).are_in_leaves() &&
       !(sizing.asks_in_liquid(time) && growth.is_any_too_coarse(owned_leaves(octree)));
     if (is_fine_enough &&
-        (state.step == 0 || state.step % steps_between_looks != 0 || !(is_bounded || is_too_fine(mesh, size))))
+        (state.step == 0 || state.step % steps_between_looks != 0 || !(is_bounded || prm.velocity_error > 0 || is_too_fine(mesh, size))))
       return state.mesh;
     const auto tree =
       growth.grow_around(octree, [&](const double factor) { return moved.points_ahead(factor); });
@@ -222,7 +238,7 @@ namespace treacle
 #define INSTANTIATE(dim)                                                        \
   template std::shared_ptr<const Mesh<dim>> mesh_for_next_surface(              \
     const State<dim> &,                                                         \
-    const Scene<dim> &,                                                         \
+    const LiquidDomain<dim> &,                                                  \
     const SurfaceGeometry<dim> &,                                               \
     const Advection<dim> &,                                                     \
     const std::vector<Point<dim>> &,                                            \

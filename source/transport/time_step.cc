@@ -19,7 +19,8 @@ namespace treacle
                       Patterns::Double(1e-12));
     prm.add_parameter("Maximum CFL number",
                       cfl,
-                      "Finest leaves that the fastest liquid crosses in a step.",
+                      "Leaves that liquid crosses in a step, each of those that are there; inside the liquid they "
+                      "count as no larger than the surface's.",
                       Patterns::Double(1e-3, 100));
     prm.add_parameter("Maximum time step",
                       maximum,
@@ -70,6 +71,25 @@ namespace treacle
     longest_step(const double v, const double g, const double distance)
     {
       return 2 * distance / (v + std::sqrt(v * v + 4 * g * distance));
+    }
+
+    /// The longest in which nothing crosses more leaves. Collective.
+    template <int dim>
+    double
+    longest_step(const State<dim>        &state,
+                 const LiquidDomain<dim> &domain,
+                 const double             g,
+                 const double             leaves)
+    {
+      const Mesh<dim> &mesh    = domain.mesh;
+      double           longest = longest_step(0, g, leaves * largest_surface_size(mesh));
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        if (domain.is_active_node[node])
+          longest = std::min(longest,
+                             longest_step(state.v.value(node).norm(),
+                                          g,
+                                          leaves * surface_size_at_node(mesh, node)));
+      return Utilities::MPI::min(longest, mesh.communicator());
     }
 
     /// How the velocity has changed in the step before.
@@ -174,8 +194,7 @@ namespace treacle
   {
     // the speed at the end of the step counts: v dt + g dt^2 = CFL h
     const double v = maximum_speed(state, domain), g = maximum_gravity(domain, state.time);
-    const double h = domain.mesh.finest_size();
-    size.falling   = longest_step(v, g, prm.cfl * h);
+    size.falling   = longest_step(state, domain, g, prm.cfl);
     if (size.falling >= size.dt)
       return;
     size.dt    = size.falling;
@@ -185,10 +204,10 @@ namespace treacle
       return;
     const Change change    = change_before(state, domain);
     const double a         = std::min(g, 2 * change.fastest);
-    const double by_change = std::max(largest_change / change.rate, least_distance * h / v);
+    const double by_change = std::max(largest_change / change.rate, least_distance / fastest_crossing(domain, state.v));
     const std::array<std::pair<double, StepSize::Bound>, 3> bounds{
       {{by_change, StepSize::Bound::change},
-       {longest_step(v, a, prm.cfl * h), StepSize::Bound::cfl},
+       {longest_step(state, domain, a, prm.cfl), StepSize::Bound::cfl},
        {prm.maximum, StepSize::Bound::maximum}}};
     const auto &[dt, bound] = *std::min_element(bounds.begin(), bounds.end());
     if (dt > size.dt)
@@ -222,10 +241,25 @@ namespace treacle
     return speed;
   }
 
+  template <int dim>
+  double
+  fastest_crossing(const LiquidDomain<dim> &domain, const NodeVector<dim> &v)
+  {
+    double result = 0;
+    for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
+      if (domain.is_active_node[node])
+        result = larger(result, v.value(node).norm() / surface_size_at_node(domain.mesh, node));
+    return largest(domain.mesh.communicator(), result);
+  }
+
   template class TimeStep<2>;
   template class TimeStep<3>;
   template double
   maximum_speed(const State<2> &, const LiquidDomain<2> &);
   template double
   maximum_speed(const State<3> &, const LiquidDomain<3> &);
+  template double
+  fastest_crossing(const LiquidDomain<2> &, const NodeVector<2> &);
+  template double
+  fastest_crossing(const LiquidDomain<3> &, const NodeVector<3> &);
 } // namespace treacle

@@ -39,7 +39,7 @@ namespace treacle
     });
     const auto           mesh    = timing.measured("mesh", [&] {
       return mesh_for_next_surface(
-        old, scene, *liquid.surface, advection, ends, markers, difference.dt);
+        old, *liquid.domain, *liquid.surface, advection, ends, markers, difference.dt);
     });
     const bool           rebuilt = mesh != old.mesh;
     auto                 next    = timing.measured("advection", [&] {

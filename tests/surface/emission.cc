@@ -116,7 +116,7 @@ carry(const MPI_Comm &comm, const unsigned int level)
       const Advection<dim>       advection(
         prm.transport.advection, *state, liquid.domain, surface, BackwardDifference(0.02, *state));
       const auto mesh = mesh_for_next_surface(
-        *state, scene, surface, advection, advection.move_surface(surface.facets.positions), {}, 0.02);
+        *state, liquid.domain, surface, advection, advection.move_surface(surface.facets.positions), {}, 0.02);
       auto next = std::make_unique<State<dim>>(advection.advance(mesh, 0.3));
       settle_material(*next, MeshData<dim>(*mesh, scene), 6);
       state = std::move(next);

@@ -121,7 +121,7 @@ carry(const MPI_Comm                                  &comm,
         prm.transport.advection, *state, domain, *surface, BackwardDifference(dt, *state));
       const auto markers = advection.move_markers();
       const auto mesh = mesh_for_next_surface(
-        *state, scene, *surface, advection, advection.move_surface(surface->facets.positions), markers, dt);
+        *state, domain, *surface, advection, advection.move_surface(surface->facets.positions), markers, dt);
       errors.rebuilt += mesh != state->mesh;
       auto next     = std::make_unique<State<dim>>(advection.advance(mesh, reach));
       next->markers = to_owners(*mesh, markers);

@@ -152,7 +152,7 @@ namespace
            "set Viscosity = exp(1 + x) * cos(y)\nend\nsubsection Liquid 1\n" +
            "set Shape = half space\nset Centre = " + (dim == 2 ? "0, 10" : "0, 0, 10") +
            "\nset Normal = " + (dim == 2 ? "0, 1" : "0, 0, 1") +
-           "\nend\nsubsection Viscosity\nset Mapping = " + mapping + "\nend\n" + tolerance("1e-11") +
+           "\nend\n" + with_mapping(mapping) + tolerance("1e-11") +
            "subsection Linear solvers\nsubsection Viscosity\nset Maximum iterations = 100000\nend\nend\n";
   }
 

@@ -52,7 +52,7 @@ namespace
                      "\nend\nsubsection Material\nset Density = 1\nset Viscosity = 1\nend\n" +
                      "subsection Liquid 1\nset Radius = 1\nset Centre = " +
                      (dim == 2 ? "0.013, -0.027" : "0.013, -0.027, 0.036") +
-                     "\nend\nsubsection Viscosity\nset Mapping = " + mapping + "\nend\n" +
+                     "\nend\n" + with_mapping(mapping) +
                      tolerance("1e-11") + "subsection Linear solvers\nsubsection Viscosity\n" +
                      "set Maximum iterations = 100000\nend\nend\n");
     Point<dim> centre;

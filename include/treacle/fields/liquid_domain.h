@@ -27,7 +27,7 @@ namespace treacle
     struct Parameters
     {
       Hold   hold          = Hold::walls;
-      double minimum_theta = 1e-4; ///< bounds the liquid part of a dual edge from below
+      double minimum_theta = 1e-6; ///< bounds the liquid part of a dual edge from below
 
       /// Subsections Viscosity and Pressure.
       void

@@ -33,6 +33,7 @@ namespace treacle
     double      leaves_across     = 4; ///< liquid and gaps
     std::string size;                  ///< of leaves (m), a formula; empty: any
     bool        fine_at_jumps = false; ///< of the material
+    double      velocity_error = 0; ///< of the largest speed; 0: any
     unsigned int maximum_cells = 0;    ///< about; 0: any number
 
     /// Throws a UserError where no octree fits.

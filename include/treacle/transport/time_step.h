@@ -5,6 +5,7 @@
 #define treacle_transport_time_step_h
 
 #include <treacle/fields/liquid_domain.h>
+#include <treacle/mesh/surface_size.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -87,7 +88,7 @@ namespace treacle
     double
     largest_reach(const Mesh<dim> &mesh) const
     {
-      return furthest_trace(prm.cfl * mesh.finest_size()) + 3 * mesh.surface_size();
+      return furthest_trace(prm.cfl * largest_surface_size(mesh)) + 3 * mesh.surface_size();
     }
 
     /// How far phi must be a distance, if the velocity is known up to @p reach (m): nodal gradients
@@ -142,6 +143,12 @@ namespace treacle
   template <int dim>
   double
   maximum_speed(const State<dim> &state, const LiquidDomain<dim> &domain);
+
+  /// Leaves that liquid crosses in a second (1/s), at most, each of those that are there: inside the liquid
+  /// they count as no larger than the largest that the surface passes through. Collective.
+  template <int dim>
+  double
+  fastest_crossing(const LiquidDomain<dim> &domain, const NodeVector<dim> &v);
 } // namespace treacle
 
 #endif
