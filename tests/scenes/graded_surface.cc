@@ -3,7 +3,7 @@
 
 // The surface passes from leaves to others a quarter or an eighth as large, in every direction: liquid at rest stays
 // at rest, a body that turns freely keeps its angular momentum and shape, and leaves are as large as
-// curvature, thickness, formula, walls and solids allow.
+// curvature, thickness, formula, walls, solids and velocity allow.
 
 #include "../run_scene.h"
 #include "../tests.h"
@@ -135,6 +135,36 @@ namespace
     levels<dim>(comm, "no jump", jumps + "subsection Material\nset Viscosity = 1 + x\nend\n", 0);
   }
 
+  /// A ball moves through a full box; its drag beside that with fine leaves everywhere.
+  template <int dim>
+  void
+  drag(const MPI_Comm &comm)
+  {
+    const std::string z   = dim == 2 ? "" : "; 0";
+    const auto        run = [&](const std::string &mesh) {
+      return run_scene<dim>(comm,
+                            "set End time = 0.004\nset Frame interval = 0.004\nset Maximum time step = 0.001\n"
+                            "subsection Gravity\nset Acceleration = 0; 0" + z +
+                              "\nend\nsubsection Material\nset Density = 1\nset Viscosity = 1000\nend\n"
+                              "subsection Liquid 1\nset Shape = expression\nset Expression = -1\nend\n"
+                              "subsection Solid 1\nset Shape = sphere\nset Radius = " +
+                              (dim == 2 ? "0.1" : "0.2") + "\nset Velocity = 1; 0" + z +
+                              "\nend\nsubsection Mesh\nset Air level = 1\nset Surface level = " +
+                              std::to_string(dim == 2 ? 6 : 3) + "\n" + mesh + "end\n",
+                            1);
+    };
+    const auto fine   = run("set Interior level = " + std::to_string(dim == 2 ? 6 : 3) + "\n"),
+               asked  = run("set Interior level = 1\nset Velocity error = 0.1\n"),
+               coarse = run("set Interior level = 1\n");
+    const auto error  = [&](const std::vector<Row> &rows) {
+      const std::string force = "Solid 1 force x (N)";
+      return 100 * (rows.back().at(force) / fine.back().at(force) - 1);
+    };
+    out() << dim << "D: drag, cells " << fine.back().at("Cells") << ", by velocity " << asked.front().at("Cells")
+          << " to " << asked.back().at("Cells") << ", force off by " << error(asked) << " %, without "
+          << error(coarse) << " %" << std::endl;
+  }
+
   /// Heavy liquid sinks into a light one, in a full box; kinetic energy beside that with fine leaves everywhere.
   void
   overturn(const MPI_Comm &comm)
@@ -174,6 +204,8 @@ start(const int, char **)
     turn<3>(comm);
     sizes<2>(comm);
     sizes<3>(comm);
+    drag<2>(comm);
+    drag<3>(comm);
     overturn(comm);
   });
 }
