@@ -4,7 +4,7 @@
 #include <treacle/fields/moved_points.h>
 #include <treacle/mesh/surface_size.h>
 #include <treacle/surface/marker_seeding.h>
-#include <treacle/surface/near_markers.h>
+#include <treacle/surface/marker_sheet.h>
 #include <treacle/surface/sowing.h>
 
 namespace treacle
@@ -14,7 +14,9 @@ namespace treacle
     /// Point k of an even sequence on a facet.
     template <int dim>
     Point<dim>
-    even_point(const std::array<Point<dim>, dim> &facet, const double start, const unsigned int k)
+    even_point(const std::array<Point<dim>, dim> &facet,
+               const double                       start,
+               const unsigned int                 k)
     {
       std::array<double, dim - 1> s = treacle::even_point<dim - 1>(start, k);
       if (dim == 3 && s[0] + s[dim - 2] > 1)
@@ -62,7 +64,8 @@ namespace treacle
       double
       density(const LocalIndex cell) const
       {
-        return per_cell / (mean_facet_area<dim> * std::pow(surface_size_of_cell(mesh, cell), dim - 1));
+        return per_cell / (mean_facet_area<dim> *
+                           std::pow(surface_size_of_cell(mesh, cell), dim - 1));
       }
 
       void
@@ -78,10 +81,11 @@ namespace treacle
       void
       count_markers()
       {
-        const Locator<dim> &locator = mesh.locator();
+        const Locator<dim>      &locator = mesh.locator();
         std::vector<Marker<dim>> located;
         for (const Marker<dim> &marker : state.markers)
-          if (const LocalIndex cell = locator.locate_here(marker.position).cell; cell != invalid)
+          if (const LocalIndex cell = locator.locate_here(marker.position).cell;
+              cell != invalid)
             {
               located.push_back(marker);
               cells.push_back(cell);
@@ -99,7 +103,10 @@ namespace treacle
         for (unsigned int k = 0; k < cells.size(); ++k)
           {
             const double target = wanted.local_element(cells[k]);
-            if (target == 0 || stays(mesh, state.markers[k].position, count.local_element(cells[k]), target))
+            if (target == 0 || stays(mesh,
+                                     state.markers[k].position,
+                                     count.local_element(cells[k]),
+                                     target))
               kept.push_back(state.markers[k]);
           }
         state.markers = std::move(kept);
@@ -131,24 +138,53 @@ namespace treacle
         state.markers.insert(state.markers.end(), seeds.begin(), seeds.end());
       }
 
-      /// Where markers are about, they know better than phi where a surface runs: seeds
-      /// across it would be the ends of a thin part that phi cannot hold.
+      /// Where markers are about, they know better than phi where a surface runs. Seeds
+      /// on the ragged facets of a thin part that phi cannot hold would lie inside it,
+      /// and thin it.
       void
       keep_in_line(std::vector<Marker<dim>> &seeds) const
       {
-        const MarkersWithinLeaves<dim>             markers(mesh, state.markers, 0.75);
-        std::vector<Marker<dim>>                   kept;
+        const MarkersWithinLeaves<dim>       markers(mesh,
+                                               state.markers,
+                                               MarkerSheet<dim>::reach);
+        std::vector<Marker<dim>>             kept;
         std::vector<const NearMarker<dim> *> near;
-        for (const Marker<dim> &seed : seeds)
+        for (Marker<dim> &seed : seeds)
           {
-            if (scene.has_solids() && scene.solid_distance(seed.position, state.time) < 0)
-              continue;
+            const double h = size_at(seed.position);
             near.clear();
-            markers.append_around(seed.position, size_at(seed.position), near);
-            if (near.empty() || nearest<dim>(seed.position, {near.data(), near.size()}).normal * seed.normal > 0.5)
+            markers.append_around(seed.position, h, near);
+            if (settles({near.data(), near.size()}, h, seed))
               kept.push_back(seed);
           }
-        seeds = std::move(kept);
+        clamp(kept);
+        seeds = to_owners(mesh, kept);
+        if (scene.has_solids())
+          seeds.erase(std::remove_if(seeds.begin(),
+                                     seeds.end(),
+                                     [&](const auto &seed) {
+                                       return scene.solid_distance(seed.position,
+                                                                   state.time) < 0;
+                                     }),
+                      seeds.end());
+      }
+
+      /// Does a seed, where not all markers @p near face one way, find the sheet of those
+      /// that face its way? There it settles.
+      static bool
+      settles(const AroundPoint<dim> &near, const double h, Marker<dim> &seed)
+      {
+        constexpr double one_way = 0.6; // cosine
+        const auto       same    = facing<dim>(near, seed.normal, one_way);
+        if (same.size() == near.size())
+          return true;
+        if (same.empty())
+          return false;
+        const MarkerSheet<dim> sheet(seed.position, {same.data(), same.size()}, h);
+        if (sheet.is_beside || !sheet.surrounds)
+          return false;
+        seed = {seed.position - sheet.distance * sheet.normal, sheet.normal};
+        return true;
       }
 
       double
@@ -171,10 +207,16 @@ namespace treacle
                   seeds[k].position -= samples[k].value * g / g.norm_square();
                   seeds[k].normal = g / g.norm();
                 }
-            const auto moved = mesh.locator().clamped(positions(seeds));
-            for (unsigned int k = 0; k < seeds.size(); ++k)
-              seeds[k].position = moved[k];
+            clamp(seeds);
           }
+      }
+
+      void
+      clamp(std::vector<Marker<dim>> &seeds) const
+      {
+        const auto moved = mesh.locator().clamped(positions(seeds));
+        for (unsigned int k = 0; k < seeds.size(); ++k)
+          seeds[k].position = moved[k];
       }
 
       State<dim>                 &state;
@@ -182,7 +224,7 @@ namespace treacle
       const Scene<dim>           &scene;
       const SurfaceGeometry<dim> &surface;
       const double                per_cell; ///< markers, in the mean
-      Vector                      count;   ///< of markers in each cell
+      Vector                      count;    ///< of markers in each cell
       Vector                      wanted;
       std::vector<LocalIndex>     cells; ///< of the markers of this rank
     };
@@ -199,7 +241,13 @@ namespace treacle
   }
 
   template void
-  reseed_markers(State<2> &, const Scene<2> &, const SurfaceGeometry<2> &, const unsigned int);
+  reseed_markers(State<2> &,
+                 const Scene<2> &,
+                 const SurfaceGeometry<2> &,
+                 const unsigned int);
   template void
-  reseed_markers(State<3> &, const Scene<3> &, const SurfaceGeometry<3> &, const unsigned int);
+  reseed_markers(State<3> &,
+                 const Scene<3> &,
+                 const SurfaceGeometry<3> &,
+                 const unsigned int);
 } // namespace treacle

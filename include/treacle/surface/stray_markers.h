@@ -10,9 +10,10 @@
 namespace treacle
 {
   /// Take away markers that no longer lie on the surface: 3/4 of a leaf from it, on the
-  /// box, in solids, or turned the wrong way; the others take the normal of phi where it
-  /// is smooth. Throws a UserError on all ranks
-  /// where that leaves too few. Collective.
+  /// box, in solids, turned the wrong way, or where a sheet that faces the other way runs
+  /// through them; the others take the normal of phi where it is smooth. Those of films a
+  /// leaf thick stay up to a leaf away and keep their normals. Throws a UserError on all
+  /// ranks where that leaves too few. Collective.
   template <int dim>
   void
   remove_stray_markers(State<dim>                 &state,
