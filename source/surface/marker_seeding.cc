@@ -169,15 +169,16 @@ namespace treacle
                       seeds.end());
       }
 
-      /// Does a seed, where not all markers @p near face one way, find the sheet of those
-      /// that face its way? There it settles.
+      /// Is there a surface at a seed? At thin parts and sharp edges, where some markers
+      /// @p near face elsewhere, it settles on the sheet of those that face its way.
       static bool
       settles(const AroundPoint<dim> &near, const double h, Marker<dim> &seed)
       {
-        constexpr double one_way = 0.6; // cosine
-        const auto       same    = facing<dim>(near, seed.normal, one_way);
-        if (same.size() == near.size())
-          return true;
+        constexpr double elsewhere = 0.3, its_way = 0.6; // cosines
+        if (facing<dim>(near, -seed.normal, -elsewhere).empty())
+          return near.size() == 0 ||
+                 nearest<dim>(seed.position, near).normal * seed.normal > 0.5;
+        const auto same = facing<dim>(near, seed.normal, its_way);
         if (same.empty())
           return false;
         const MarkerSheet<dim> sheet(seed.position, {same.data(), same.size()}, h);
