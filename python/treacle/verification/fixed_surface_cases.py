@@ -44,6 +44,8 @@ TWO_VISCOSITIES = {
     "u, right": (last("Probe 3 velocity x (m/s)"), 2.32207206e-5),
     "v, right": (last("Probe 3 velocity y (m/s)"), 2.61923373e-5),
     "p, right": (last("Probe 3 pressure (Pa)"), -0.0287334587)}
+BY_VELOCITY = {"Mesh/Size": "", "Mesh/Velocity error": "0.02", "Mesh/Interior level": 2, "Mesh/Air level": 2,
+               "Steps/Surface": "true", "Steps/Advection": "true", "End time": "5e-3", "Frame interval": "5e-3"}
 DRAG = {"force": (last("Solid 1 force z (N)"), -1.12636448 * 6 * math.pi / 4)}  # of a quarter
 ONE_VISCOSITY = {"u": (last(U), 0.012665148),
                  "v": (last("Probe 2 velocity y (m/s)"), -0.017911224)}
@@ -94,6 +96,7 @@ CLOSED_CASES = {
     "B7 viscosity 1": Case("two_viscosities", 4, 0.05, ONE_VISCOSITY, {"Material/Viscosity": 1},
                            in_time=({},)),
     "B8": Case("sphere_drag", 5, 1e-3, DRAG, {"Mesh/Interior level": 2, "Mesh/Air level": 2}, order=None),
+    "B8 velocity error": Case("sphere_drag", 5, 1e-3, DRAG, BY_VELOCITY, order=None),
     "B9": Case("rayleigh_taylor", 1, 2, growth(0.0109031, 60), tolerance=0.03, order=None),
     "B9 viscosity 0.01": Case("rayleigh_taylor", 1, 0.2, growth(0.103834, 6), THIN_LAYER, 0.03, None),
 }

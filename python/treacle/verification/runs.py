@@ -11,6 +11,8 @@ import threading
 import time
 from pathlib import Path
 
+import numpy
+
 from treacle.repository import ROOT
 from treacle.verification.cases import Program
 from treacle.verification.measures import Results
@@ -64,7 +66,8 @@ def run(case, level, time_step, settings, program=BUILD / "treacle", ranks=1):
         values = {name: (value(found) / exact - 1 if exact else value(found))
                   for name, (value, exact) in case.exact.items()}
         return {"errors": values, "h": found.leaf_size(level), "dt": time_step,
-                "seconds": seconds, "energy gain": found.energy_gain(),
+                "seconds": seconds, "cells": float(numpy.mean(found["Cells"])),
+                "energy gain": found.energy_gain(),
                 "volume drift": found.volume_drift(), "fallbacks": found.fallbacks()}
 
 

@@ -1,0 +1,57 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) the Treacle authors
+"""Errors of exact cases over cells and seconds, by what asks for fine leaves; a table in markdown.
+
+    benchmarks/adaptivity.py [--levels N] [--set NAME=VALUE]... [CASE ...]
+
+everywhere: liquid and surface have leaves of one level. velocity: the interior is three levels coarser, and
+`Mesh/Velocity error` asks. surface: leaves along the surface too, two levels coarser where it allows.
+Cells are the mean over the steps, seconds those of the whole run.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "python"))
+from treacle.verification.fixed_surface_cases import CLOSED_CASES  # noqa: E402
+from treacle.verification.free_surface_cases import FREE_SURFACE_CASES  # noqa: E402
+from treacle.verification.runs import run  # noqa: E402
+
+CASES = ["C3 k pi, h 0.5, nu 1", "C5", "C7", "C9", "C9b", "C9d", "B8 velocity error"]
+
+
+def settings(mode, level):
+    interior = max(level - 3, 1)
+    coarse = {"Mesh/Interior level": interior, "Mesh/Air level": min(interior, level - 1),
+              "Mesh/Velocity error": "0.01"}
+    return {"everywhere": {"Mesh/Velocity error": "0"}, "velocity": coarse,
+            "surface": {**coarse, "Mesh/Coarsest surface level": max(level - 2, 1)}}[mode]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("cases", nargs="*", metavar="CASE", default=CASES)
+    parser.add_argument("--levels", type=int, default=3)
+    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", dest="more")
+    arguments = parser.parse_args()
+    more = dict(pair.split("=", 1) for pair in arguments.more)
+    cases = {**CLOSED_CASES, **FREE_SURFACE_CASES}
+    print("| case | level | leaves | cells | s | errors |")
+    print("|---" * 6 + "|")
+    for name in arguments.cases:
+        case = cases[name]
+        for k in range(arguments.levels):
+            level = case.first_level + k
+            for mode in ("everywhere", "velocity", "surface"):
+                done = run(case, level, case.time_step * 0.5 ** k, {**settings(mode, level), **more})
+                errors = ", ".join(f"{100 * error:+.2g}" for error in done["errors"].values())
+                print(f"| {name} | {level} | {mode} | {done['cells']:.0f} | {done['seconds']:.1f} | {errors} % |",
+                      flush=True)
+
+
+if __name__ == "__main__":
+    main()
