@@ -174,6 +174,9 @@ namespace treacle
       }
     };
 
+    /// In leaves: where a dual centre lies less deep, q / phi is the solver's error over nothing.
+    constexpr double least_depth = 0.01;
+
     /// Over the pressure cells around each node.
     template <int dim>
     Slope
@@ -183,7 +186,8 @@ namespace treacle
       Slope            slope(mesh.nodes);
       for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
         for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
-          if (const LocalIndex c = mesh.node_cells[k]; domain.is_pressure_cell[c])
+          if (const LocalIndex c   = mesh.node_cells[k];
+              domain.is_pressure_cell[c] && domain.dual_distance[c] < -least_depth * mesh.cell_size[c])
             {
               const double phi = domain.dual_distance[c];
               slope.q_phi.local_element(node) += q.local_element(c) * phi;
@@ -193,7 +197,7 @@ namespace treacle
       return slope;
     }
 
-    /// Nodes without a pressure cell around them ask their neighbours.
+    /// Nodes without such a cell around them ask their neighbours.
     template <int dim>
     Slope
     continued(const Mesh<dim> &mesh, const Slope &slope)

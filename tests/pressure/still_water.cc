@@ -3,17 +3,27 @@
 
 // Water at rest on a graded mesh with a sphere immersed, flat and with gravity
 // tilted as the surface is: it stays at rest to rounding where no theta is
-// clamped (case C1 of the verification). Argument: number of steps, level.
+// clamped (case C1 of the verification); without viscosity, its surface on the sides of leaves, where dual centres are,
+// to what the clamped ones make. Argument: number of steps, level.
 
 #include "../tests.h"
 #include "../run_scene.h"
 
 namespace tests::pressure_still_water
 {
+enum class Surface
+{
+  flat,
+  tilted,
+  on_leaves
+};
+
 template <int dim>
 void
-check(const MPI_Comm &comm, const bool tilted, const unsigned int n_steps, const unsigned int level)
+check(const MPI_Comm &comm, const Surface surface, const unsigned int n_steps, const unsigned int level)
 {
+  const bool        tilted = surface == Surface::tilted, on_leaves = surface == Surface::on_leaves;
+  const std::string name = tilted ? "tilted" : on_leaves ? "on leaves" : "flat", height = on_leaves ? "0.5" : "0.51";
   Tensor<1, dim> normal;
   normal[dim - 1] = 1;
   if (tilted)
@@ -33,10 +43,10 @@ check(const MPI_Comm &comm, const bool tilted, const unsigned int n_steps, const
        << "subsection Domain\nset Wall condition = free slip\nend\n"
        << "subsection Mesh\nset Surface level = " << level
        << "\nset Interior level = 2\nset Air level = 2\nset Band width = 2\nend\n"
-       << "subsection Material\nset Viscosity = 1\nend\n"
+       << "subsection Material\nset Viscosity = " << (on_leaves ? 0 : 1) << "\nend\n"
        << "subsection Gravity\nset Acceleration = " << components.str() << "\nend\n"
        << "subsection Liquid 1\nset Shape = half space\nset Centre = "
-       << (dim == 2 ? "0.5, 0.51" : "0.5, 0.5, 0.51") << "\nset Normal = ";
+       << (dim == 2 ? "0.5, " : "0.5, 0.5, ") << height << "\nset Normal = ";
   for (unsigned int d = 0; d < dim; ++d)
     text << (d ? ", " : "") << normal[d];
   text << "\nend\nsubsection Solid 1\nset Shape = sphere\nset Radius = 0.15\nset Centre = "
@@ -47,11 +57,11 @@ check(const MPI_Comm &comm, const bool tilted, const unsigned int n_steps, const
   const double speed = rows.back().at("Maximum speed (m/s)") / std::sqrt(9.81 * 0.51);
   const double clamped = rows.back().at("Clamped faces");
   if (n_steps > 10) // for a person
-    std::cout << dim << "D " << (tilted ? "tilted" : "flat") << ": maximum speed " << speed
+    std::cout << dim << "D " << name << ": maximum speed " << speed
               << " sqrt(g h), " << clamped << " clamped faces" << std::endl;
-  out() << dim << "D " << (tilted ? "tilted" : "flat") << ": " << rows.size() - 1 << " steps, "
+  out() << dim << "D " << name << ": " << rows.size() - 1 << " steps, "
         << clamped << " clamped faces, speed "
-        << (speed < 1e-8 ? "below 1e-8" : speed < 1e-3 ? "below 1e-3" : "TOO LARGE")
+        << (speed < 1e-8 ? "below 1e-8" : speed < 1e-5 ? "below 1e-5" : "TOO LARGE")
         << " sqrt(g h)" << std::endl;
 }
 
@@ -61,10 +71,10 @@ start(const int argc, char **argv)
   const unsigned int n_steps = argc > 1 ? std::stoi(argv[1]) : 3;
   const unsigned int level   = argc > 2 ? std::stoi(argv[2]) : 3;
   on_1_2_3_ranks([&](const MPI_Comm &comm) {
-    for (const bool tilted : {false, true})
+    for (const Surface surface : {Surface::flat, Surface::tilted, Surface::on_leaves})
       {
-        check<2>(comm, tilted, n_steps, level);
-        check<3>(comm, tilted, n_steps, level);
+        check<2>(comm, surface, n_steps, level);
+        check<3>(comm, surface, n_steps, level);
       }
   });
 }
