@@ -9,6 +9,9 @@ namespace treacle
 {
   namespace
   {
+    /// Of a finest leaf, in a step: what moves by less is at rest but for noise.
+    constexpr double least_motion = 1e-6;
+
     /// The velocity gradient at nodes, by component: the mean of the cells around that count. What is as short
     /// as a cell, as the errors of the velocity are, is gone. Collective.
     template <int dim, typename Counts>
@@ -44,7 +47,8 @@ namespace treacle
     if (!mesh.is_lattice() || mesh.octree().parameters().velocity_error == 0)
       return result;
     const double bound =
-      mesh.octree().parameters().velocity_error * maximum_speed(state, domain);
+      mesh.octree().parameters().velocity_error *
+      std::max(maximum_speed(state, domain), least_motion * mesh.finest_size() / dt);
     const auto counts = [&](const LocalIndex c) {
       return domain.liquid_volume[c] > 0 && domain.cut_cells.parts(c).size() == 0;
     };
