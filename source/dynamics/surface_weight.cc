@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/mesh/locator.h>
+#include <treacle/mesh/surface_size.h>
 #include <treacle/base/exchange.h>
 #include <treacle/dynamics/surface_weight.h>
 
@@ -88,8 +90,12 @@ namespace treacle
       if ((1 - t) * domain.solid_distance[a] + t * domain.solid_distance[b] < 0)
         return 0;
       const Tensor<1, dim> g       = domain.scene.gravity(x, state.time);
-      const double         longest = longest_without * domain.mesh.finest_size();
       const double         g_dt2   = g.norm() * dt * dt;
+      if (g_dt2 <= longest_without * domain.mesh.finest_size())
+        return 0;
+      const double longest =
+        longest_without *
+        surface_size_of_cell(domain.mesh, domain.mesh.locator().locate_here(x).cell);
       if (g_dt2 <= longest)
         return 0;
       const NodeVector<dim> &v = state.v, &before = *state.before->v;

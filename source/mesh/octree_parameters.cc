@@ -111,7 +111,8 @@ namespace treacle
     prm.add_parameter("Velocity error",
                       velocity_error,
                       "Leaves in the liquid, down to those of the Surface level, are so small that others twice as "
-                      "large would change the velocity by this part of the largest speed; 0: it asks for nothing.",
+                      "large would change the velocity by this part of the largest speed, from the second step on, where Steps/Surface is on; "
+                      "0: it asks for nothing.",
                       Patterns::Double(0, 1));
     prm.add_parameter("Maximum cells",
                       maximum_cells,

@@ -32,7 +32,7 @@ namespace treacle
     distance /= sum;
     surrounds =
       std::any_of(markers.begin(), markers.end(), [&](const NearMarker<dim> *m) {
-        return (x - m->marker.position) * aside < 0;
+        return (x - m->marker.position) * aside <= 0;
       });
     const Marker<dim>   &foot  = nearest<dim>(x, markers);
     const Tensor<1, dim> r     = x - foot.position;

@@ -114,7 +114,7 @@ namespace treacle
         BandPoints<dim>                 result = points_at(level);
         append_way_ahead(result, mesh, surface.positions, vertices, level);
         append_around_jumps(result);
-        append_inside(result, factor);
+        append_inside(result, 1); // what is asked for in the liquid is not made coarser
         return result;
       }
 

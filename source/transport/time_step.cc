@@ -40,7 +40,7 @@ namespace treacle
   {
     /// Of itself, that the velocity may change in a step that is longer than a fall allows.
     constexpr double largest_change = 0.25;
-    /// Of the finest leaf: what moves by less need not be followed in time.
+    /// Of the leaf that is there: what moves by less need not be followed in time.
     constexpr double least_distance = 1e-3;
 
     /// The largest gravity in the liquid, or in the box's middle as long as there is none

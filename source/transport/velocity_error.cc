@@ -60,8 +60,6 @@ namespace treacle
           for (const NodeVector<dim> &of_component : gradient)
             square += velocity_gradient(mesh, c, of_component).norm_square();
           const double size = std::sqrt(bound / (3. / 8 * std::sqrt(square)));
-          if (size > 4 * mesh.cell_size[c])
-            continue;
           Point<dim> x;
           for (const LocalIndex node : mesh.cell_nodes[c])
             x += (mesh.node_position[node] + dt * state.v.value(node)) / (dim + 1);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#ifndef treacle_face_residual_h
-#define treacle_face_residual_h
+#ifndef treacle_transport_face_residual_h
+#define treacle_transport_face_residual_h
 
 #include <treacle/fields/backward_difference.h>
 #include <treacle/fields/liquid_domain.h>

@@ -16,7 +16,7 @@ namespace treacle
   {
     enum class Bound
     {
-      cfl,       ///< what the fastest liquid crosses
+      cfl,       ///< leaves that are crossed
       weight,    ///< what a fall from its speed would cross
       change,    ///< how fast the velocity changes
       growth,    ///< twice the step before

@@ -20,7 +20,7 @@ namespace treacle
   /// What the velocity asks for in the cells of the liquid, those that solids cut aside, moved on with it for
   /// @p dt: leaves twice as large would change it by Mesh/Velocity error of the largest speed. With the
   /// second derivatives D v, from nodal means of gradients, edges of h and 2 h differ by 3/8 h^2 |D v| at most.
-  /// Cells that would do with four times the edge are left out. Collective.
+  /// Collective.
   template <int dim>
   std::vector<AskedSize<dim>>
   sizes_by_velocity(const State<dim> &state, const LiquidDomain<dim> &domain, const double dt);
