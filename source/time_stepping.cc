@@ -13,6 +13,8 @@ namespace treacle
   {
     /// Part of the volume that a step may win or lose before it is repeated.
     constexpr double largest_drift = 0.01;
+    /// Where half a step leaves more of it, the mesh is too coarse, not the step.
+    constexpr double worth_halving = 0.6;
     /// What moves by less is not repeated.
     constexpr double half_a_leaf = 0.5;
     /// Of the kinetic energy and the range of the potential one, that a step may gain before
@@ -56,19 +58,26 @@ namespace treacle
   {
     const std::shared_ptr<State<dim>> old        = liquid.state;
     const double                      old_volume = volume;
+    const double                      old_drift  = liquid.domain->total_volume() - volume;
+    const double                      crossing   = fastest_crossing(*liquid.domain, old->v);
     const EnergyBudget<dim>           budget(*old, *liquid.domain);
+    double                            past_drift = std::numeric_limits<double>::max();
     for (double dt = size.dt;; dt = 0.5 * info.dt)
       {
         const double leaves = take(liquid, volume, dt, info);
         info.excess         = budget.excess(
           *liquid.state, *liquid.domain, {info.dt, info.dynamics.power, info.emitted});
-        if (size.dt > size.falling && info.dt > size.falling &&
-            leaves > half_a_leaf)
+        const double drift = std::abs(liquid.domain->total_volume() - volume - old_drift);
+        if (size.dt > size.falling && info.dt > size.falling && leaves > half_a_leaf)
           ++info.repetitions.motion;
+        else if (drift > largest_drift * volume && info.dt * crossing > half_a_leaf &&
+                 drift < worth_halving * past_drift)
+          ++info.repetitions.volume;
         else if (info.excess > largest_gain && info.repetitions.energy < most_halvings)
           ++info.repetitions.energy;
         else
           break;
+        past_drift = drift;
         liquid = Liquid<dim>::of(old, scene, liquid_domain);
         volume = old_volume;
         // what was held may have begun to fall: what it did before tells nothing of how
@@ -141,8 +150,7 @@ namespace treacle
         Liquid<dim>                   half = old;
         const BackwardDifference      half_difference(0.5 * difference.dt, *old.state);
         typename Transport<dim>::Info half_moved = transport(half, half_difference, volume);
-        // where two halves lose more than the whole, the mesh is too coarse, not the step
-        if (std::abs(half_moved.drift) > 0.6 * std::abs(moved.drift))
+        if (std::abs(half_moved.drift) > worth_halving * std::abs(moved.drift))
           break;
         liquid     = std::move(half);
         difference = half_difference;
