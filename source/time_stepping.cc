@@ -219,9 +219,6 @@ namespace treacle
       movement.displace(liquid, pushed, moved.missing, volume);
     });
     find(liquid);
-    // a blow: how the velocity changed until now tells nothing of how it will
-    if (moved.missing > 1e-3 * volume)
-      liquid.state->before.reset();
   }
 
   template class TimeStepping<2>;

@@ -44,17 +44,18 @@ namespace treacle
 
   template <int dim>
   std::unique_ptr<TrilinosWrappers::SparseMatrix>
-  PressureSystem<dim>::assemble(const FaceFunction        &mobility,
-                                const std::vector<double> &diagonal) const
+  PressureSystem<dim>::assemble(const FaceFunction                   &mobility,
+                                const std::vector<double>            &diagonal,
+                                const TrilinosWrappers::SparseMatrix *alike) const
   {
-    MatrixRows matrix;
+    MatrixRows all;
     MatrixRow  row;
     for (unsigned int i = 0; i < cells().size(); ++i)
       {
         set_row(cells()[i], mobility, diagonal[i], row);
-        matrix.append(row);
+        all.append(row);
       }
-    return matrix.take(domain.mesh.communicator(), rows(), numbering.ghost_columns);
+    return all.take(domain.mesh.communicator(), rows(), numbering.ghost_columns, alike);
   }
 
   template <int dim>
@@ -62,7 +63,8 @@ namespace treacle
   PressureSystem<dim>::projection_matrix() const
   {
     auto matrix = assemble([this](const LocalIndex f) { return 1 / domain.face_mass[f]; },
-                           std::vector<double>(cells().size(), 0.));
+                           std::vector<double>(cells().size(), 0.),
+                           nullptr);
     for (const unsigned int i : pockets.pinned())
       {
         const GlobalIndex row = numbering.number[cells()[i]];

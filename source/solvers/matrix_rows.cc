@@ -19,7 +19,28 @@ namespace treacle
   }
 
   std::unique_ptr<TrilinosWrappers::SparseMatrix>
-  MatrixRows::take(const MPI_Comm                 &comm,
+  MatrixRows::take(const MPI_Comm                       &comm,
+                   const IndexSet                       &rows,
+                   const std::vector<GlobalIndex>       &others,
+                   const TrilinosWrappers::SparseMatrix *alike)
+  {
+    auto result = alike == nullptr ? make(comm, rows, others) :
+                                     std::make_unique<TrilinosWrappers::SparseMatrix>();
+    if (alike != nullptr)
+      {
+        result->reinit(*alike); // shares its graph
+        const Epetra_CrsMatrix &matrix = result->trilinos_matrix();
+        AssertThrow(matrix.NumMyNonzeros() == static_cast<int>(values.size()),
+                    ExcMessage("A matrix has other entries than the one it is to be like."));
+        if (!values.empty())
+          std::copy(values.begin(), values.end(), matrix[0]);
+      }
+    *this = MatrixRows();
+    return result;
+  }
+
+  std::unique_ptr<TrilinosWrappers::SparseMatrix>
+  MatrixRows::make(const MPI_Comm                 &comm,
                    const IndexSet                 &rows,
                    const std::vector<GlobalIndex> &others)
   {
@@ -49,7 +70,6 @@ namespace treacle
         matrix.InsertMyValues(row, lengths[row], values.data() + begin, columns.data() + begin));
     error = std::min(error, matrix.FillComplete(row_map, row_map));
     AssertThrow(error >= 0, ExcMessage("A matrix could not be completed."));
-    *this       = MatrixRows();
     auto result = std::make_unique<TrilinosWrappers::SparseMatrix>();
     result->reinit(matrix);
     return result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/exchange.h>
 #include <treacle/fields/initial_state.h>
 #include <treacle/mesh/lattice_mesh.h>
 #include <treacle/surface/redistance.h>
@@ -39,6 +40,37 @@ namespace treacle
       return points;
     }
 
+    /// The points, and where those of surfaces that look down would be when they have fallen by some
+    /// leaves: the way ahead of what begins at rest. Throws on all ranks alike. Collective.
+    template <int dim>
+    BandPoints<dim>
+    with_way_down(const MPI_Comm              &comm,
+                  const OctreeParameters<dim> &prm,
+                  const Scene<dim>            &scene,
+                  BandPoints<dim>              points)
+    {
+      constexpr unsigned int n_leaves = 2;
+      constexpr double       steep    = 0.3; // cosine
+      const BoundingBox<dim> box({prm.lower_corner, prm.upper_corner});
+      std::string            error;
+      keep_error(error, [&] {
+        for (auto &[level, of_level] : points)
+          for (unsigned int i = 0, n = of_level.size(); i < n; ++i)
+            {
+              const BandPoint<dim> point = of_level[i];
+              Tensor<1, dim>       down  = scene.gravity(point.position, 0.);
+              if (!(point.outward * down > steep * down.norm()))
+                continue;
+              down *= prm.size_of(level) / down.norm();
+              for (unsigned int k = 1; k <= n_leaves; ++k)
+                if (const Point<dim> x = point.position + k * down; box.point_inside(x))
+                  of_level.push_back({x, {}});
+            }
+      });
+      throw_first(comm, error);
+      return points;
+    }
+
     /// Is a distance far from linear in a cube? What is smaller than it may hide there then, between
     /// vertices all on one side.
     template <int dim>
@@ -57,20 +89,26 @@ namespace treacle
       return false;
     }
 
-    /// Leaves that distances say the surface is in, to a level that shows it.
+    /// Leaves that distances say the surface is in, to a level that shows it, or that Maximum cells
+    /// allows: then bands around what is found go on.
     template <int dim>
     typename Octree<dim>::Criterion
-    around_distances(const OctreeParameters<dim> &prm, const Scene<dim> &scene)
+    around_distances(const MPI_Comm &comm, const OctreeParameters<dim> &prm, const Scene<dim> &scene)
     {
-      return [&](const std::vector<Leaf<dim>> &leaves) {
+      return [&, n_leaves = 0.](const std::vector<Leaf<dim>> &leaves) mutable {
         std::vector<bool> near;
+        double            n_near = 0;
         for (const Leaf<dim> &leaf : leaves)
           {
             const Point<dim> x = centre<dim>(prm, leaf);
             near.push_back(is_within(prm, leaf, scene.liquid_distance(x), prm.finest_size()) &&
                            (leaf.level < prm.coarsest_at_surface() ||
                             may_hide_something(scene, x, prm.size_of(leaf.level))));
+            n_near += near.back();
           }
+        n_leaves += (1u << dim) * Utilities::MPI::sum(n_near, comm);
+        if (prm.maximum_cells > 0 && prm.n_cells(n_leaves) > prm.maximum_cells)
+          near.assign(near.size(), false);
         return near;
       };
     }
@@ -96,9 +134,10 @@ namespace treacle
           const SurfaceGeometry<dim> surface(mesh, state.phi);
           const Vector               size = sizing.at_surface(state, surface);
           const auto                 points = [&](const double factor) {
-            return facets_by_level(surface.facets,
-                                   surface.facets.positions,
-                                   vertex_levels(prm, surface.facets, size, factor));
+            return with_way_down(mesh->communicator(), prm, scene,
+                                 facets_by_level(surface.facets,
+                                                 surface.facets.positions,
+                                                 vertex_levels(prm, surface.facets, size, factor)));
           };
           if (level > prm.coarsest_at_surface() && !growth.is_full(*octree) && !is_too_fine(*mesh, size) &&
               Bands<dim>(*octree, scene, 0., points(1), false).are_in_leaves())
@@ -125,10 +164,11 @@ namespace treacle
     });
     // first where the distance is small, then around what was found: an
     // expression need not be a distance
-    const auto octree = growth.grow(around_distances(prm, scene));
+    const auto octree = growth.grow(around_distances(comm, prm, scene));
     if (!sizing.is_uniform_at_surface())
       return mesh_by_sizes(octree, sizing, growth, scene);
-    const BandPoints<dim> points{{prm.surface_level, initial_surface<dim>(octree, scene)}};
+    const BandPoints<dim> points =
+      with_way_down(comm, prm, scene, {{prm.surface_level, initial_surface<dim>(octree, scene)}});
     return std::make_shared<const Mesh<dim>>(
       growth.grow_around(*octree, [&](const double) { return points; }));
   }

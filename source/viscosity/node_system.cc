@@ -202,7 +202,10 @@ namespace treacle
         assemble_row(mass, stiffness, face_mass, owned_nodes[i], row);
         insert(row, i, decoupled, result.shift, matrix);
       }
-    result.matrix = matrix.take(comm, rows, numbering.ghost_columns);
+    const bool has_faces = mass == Mass::faces;
+    result.matrix = matrix.take(comm, rows, numbering.ghost_columns, has_faces ? with_faces.get() : nullptr);
+    if (has_faces && !with_faces)
+      with_faces = result.matrix;
     return result;
   }
 

@@ -6,13 +6,15 @@
 
 #include <treacle/base/types.h>
 
+#include <cmath>
 #include <vector>
 
 namespace treacle
 {
-  /// A binary tree of boxes around facets (2D: segments, 3D: triangles), to look at the facets
-  /// near a point, nearer boxes first. Boost's R-tree finds the k nearest boxes, but how many
-  /// it takes for the nearest facet is known only afterwards: many times the work.
+  /// A binary tree of flat discs around facets (2D: segments, 3D: triangles), to look at the facets
+  /// near a point, nearer discs first. A disc lies along the surface, so that from beside it many
+  /// fewer come into question than boxes would; and of Boost's R-tree, which finds the k nearest
+  /// boxes, it is known only afterwards how many it takes for the nearest facet.
   template <int dim>
   class FacetTree
   {
@@ -23,7 +25,7 @@ namespace treacle
 
     explicit FacetTree(const std::vector<Facet> &facets);
 
-    /// Call @p visit with the number of each facet whose box may be closer to @p x than a
+    /// Call @p visit with the number of each facet whose disc may be closer to @p x than a
     /// radius (m), which is @p radius first and then what @p visit returned last.
     template <typename Visit>
     void
@@ -54,11 +56,14 @@ namespace treacle
     }
 
   private:
+    /// A disc (3D), or a rectangle, with all of its facets in it.
     struct Node
     {
-      Point<dim>   lower, upper;
-      unsigned int begin, end; ///< of a leaf in order; else equal
-      unsigned int second;     ///< child; the first is the next node
+      Point<dim>     centre;
+      Tensor<1, dim> normal;
+      double         radius, half_thickness; ///< across the normal and along it (m)
+      unsigned int   begin, end;             ///< of a leaf in order; else equal
+      unsigned int   second;                 ///< child; the first is the next node
     };
 
     struct Entry
@@ -70,18 +75,25 @@ namespace treacle
     static double
     squared_distance(const Node &node, const Point<dim> &x)
     {
-      double sum = 0;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const double outside = std::max({0., node.lower[d] - x[d], x[d] - node.upper[d]});
-          sum += outside * outside;
-        }
-      return sum;
+      const Tensor<1, dim> w      = x - node.centre;
+      const double         along  = std::abs(w * node.normal);
+      const double         across = std::sqrt(std::max(0., w * w - along * along));
+      const double         above  = std::max(0., along - node.half_thickness);
+      const double         beside = std::max(0., across - node.radius);
+      return above * above + beside * beside;
     }
+
+    /// The disc around the facets order[begin] to order[end - 1], and the axis along which they
+    /// extend furthest.
+    std::pair<Node, unsigned int>
+    around(const std::vector<Facet> &facets, const unsigned int begin, const unsigned int end) const;
 
     /// Append the tree of the facets order[begin] to order[end - 1].
     void
-    build(const std::vector<Facet> &facets, const unsigned int begin, const unsigned int end);
+    build(const std::vector<Facet>      &facets,
+          const std::vector<Point<dim>> &sum_of_vertices,
+          const unsigned int             begin,
+          const unsigned int             end);
 
     std::vector<Node>         nodes; ///< depth first
     std::vector<unsigned int> order; ///< facets, those of a leaf together

@@ -101,7 +101,10 @@ namespace treacle
     /// B diag(mobility) B^T + diag(diagonal), one entry a row, with the mobility of each liquid
     /// face; that of the projection is 1 / M_f.
     std::unique_ptr<TrilinosWrappers::SparseMatrix>
-    assemble(const FaceFunction &mobility, const std::vector<double> &diagonal) const;
+    assemble(const FaceFunction &mobility, const std::vector<double> &diagonal) const
+    {
+      return assemble(mobility, diagonal, matrix.get());
+    }
 
     /// Solve the projection's equation for q from what it holds. In a pocket without a free
     /// surface its mean is 0. The tolerance is relative to b, or to @p scale if that is larger.
@@ -127,6 +130,12 @@ namespace treacle
     maximum_divergence(const State<dim> &state, const LiquidDomain<dim> &domain);
 
   private:
+    /// With the graph of a matrix @p alike, if there is one.
+    std::unique_ptr<TrilinosWrappers::SparseMatrix>
+    assemble(const FaceFunction                   &mobility,
+             const std::vector<double>            &diagonal,
+             const TrilinosWrappers::SparseMatrix *alike) const;
+
     std::unique_ptr<const TrilinosWrappers::SparseMatrix>
     projection_matrix() const;
 

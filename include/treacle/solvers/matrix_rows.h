@@ -24,13 +24,18 @@ namespace treacle
     append(const MatrixRow &row);
 
     /// @p others in ascending order; those without an entry are left out, for ML takes it
-    /// that two ranks need one another or do not. Collective. Nothing is left.
+    /// that two ranks need one another or do not. A matrix @p alike has the same entries, with
+    /// other values; its graph is shared. Collective. Nothing is left.
     std::unique_ptr<TrilinosWrappers::SparseMatrix>
-    take(const MPI_Comm                 &comm,
-         const IndexSet                 &rows,
-         const std::vector<GlobalIndex> &others);
+    take(const MPI_Comm                       &comm,
+         const IndexSet                       &rows,
+         const std::vector<GlobalIndex>       &others,
+         const TrilinosWrappers::SparseMatrix *alike = nullptr);
 
   private:
+    std::unique_ptr<TrilinosWrappers::SparseMatrix>
+    make(const MPI_Comm &comm, const IndexSet &rows, const std::vector<GlobalIndex> &others);
+
     std::vector<int>    lengths, columns;
     std::vector<double> values;
   };

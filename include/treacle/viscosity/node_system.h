@@ -52,7 +52,7 @@ namespace treacle
 
     struct Assembled
     {
-      std::unique_ptr<TrilinosWrappers::SparseMatrix> matrix;
+      std::shared_ptr<TrilinosWrappers::SparseMatrix> matrix;
       /// What prescribed values and springs contribute to the right-hand side.
       Vector shift;
     };
@@ -153,6 +153,8 @@ namespace treacle
     const std::vector<LocalIndex>  &owned_nodes;
     const std::vector<GlobalIndex> &number;
     const IndexSet                 &rows;
+    /// The first matrix with Mass::faces: all of them have one graph.
+    mutable std::shared_ptr<const TrilinosWrappers::SparseMatrix> with_faces;
   };
 } // namespace treacle
 
