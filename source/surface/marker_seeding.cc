@@ -210,6 +210,42 @@ namespace treacle
                 }
             clamp(seeds);
           }
+        if (state.step == 0)
+          project_to_bodies(seeds);
+      }
+
+      /// At t = 0 the bodies know where their surface is. Chords of what phi shows of a small drop, or
+      /// of an edge, would be those of chords one step on: a sphere of one leaf's radius would
+      /// lose a fifth.
+      void
+      project_to_bodies(std::vector<Marker<dim>> &seeds) const
+      {
+        const auto samples = surface.level_set.samples(positions(seeds));
+        for (unsigned int k = 0; k < seeds.size(); ++k)
+          if (samples[k].smoothness <= 0.9)
+            {
+              const double         h        = size_at(seeds[k].position);
+              const Tensor<1, dim> gradient = gradient_of_bodies(seeds[k].position, 1e-3 * h);
+              const Tensor<1, dim> way = scene.liquid_distance(seeds[k].position) / gradient.norm_square() * gradient;
+              if (!(way.norm() < 0.5 * h))
+                continue;
+              seeds[k] = {seeds[k].position - way, gradient / gradient.norm()};
+            }
+        clamp(seeds);
+      }
+
+      Tensor<1, dim>
+      gradient_of_bodies(const Point<dim> &x, const double step) const
+      {
+        Tensor<1, dim> gradient;
+        for (unsigned int d = 0; d < dim; ++d)
+          for (const double side : {-step, step})
+            {
+              Point<dim> aside = x;
+              aside[d] += side;
+              gradient[d] += scene.liquid_distance(aside) / (2 * side);
+            }
+        return gradient;
       }
 
       void
