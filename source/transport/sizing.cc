@@ -98,7 +98,7 @@ namespace treacle
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       if (const double k = curvature.local_element(node); k >= 0)
         size.local_element(node) =
-          std::max(prm.finest_size(), coarsest / std::max(1., prm.leaves_per_radius * k * coarsest));
+          std::max(prm.smallest_asked(), coarsest / std::max(1., prm.leaves_per_radius * k * coarsest));
     return size;
   }
 
@@ -124,7 +124,7 @@ namespace treacle
           if (largest)
             keep_error(error, [&] {
               s = std::min(s, size_by_formula(mesh.node_position[node], state.time));
-              s = std::max(s, prm.finest_size());
+              s = std::max(s, prm.smallest_asked());
             });
         }
     throw_first(mesh.communicator(), error);

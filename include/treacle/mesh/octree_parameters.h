@@ -58,6 +58,14 @@ namespace treacle
       return std::ldexp(finest_size(), static_cast<int>(surface_level) - static_cast<int>(level));
     }
 
+    /// The smallest edge that the surface asks for (m): two levels beyond the finest leaves, so that
+    /// Maximum cells makes what is sharper coarse last, but edges and creases not at the cost of all else.
+    double
+    smallest_asked() const
+    {
+      return 0.25 * finest_size();
+    }
+
     /// The cells that stand on so many leaves, about.
     static double
     n_cells(const double n_leaves)
