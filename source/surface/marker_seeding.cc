@@ -211,7 +211,10 @@ namespace treacle
             clamp(seeds);
           }
         if (state.step == 0)
-          project_to_bodies(seeds);
+          {
+            seeds = to_owners(mesh, seeds); // who know how large leaves are
+            project_to_bodies(seeds);
+          }
       }
 
       /// At t = 0 the bodies know where their surface is. Chords of what phi shows of a small drop, or

@@ -63,7 +63,8 @@ namespace treacle
                 continue;
               down *= prm.size_of(level) / down.norm();
               for (unsigned int k = 1; k <= n_leaves; ++k)
-                if (const Point<dim> x = point.position + k * down; box.point_inside(x))
+                if (const Point<dim> x = point.position + k * down;
+                    box.point_inside(x) && scene.solid_distance(x, 0.) >= 0)
                   of_level.push_back({x, {}});
             }
       });
@@ -89,26 +90,38 @@ namespace treacle
       return false;
     }
 
-    /// Leaves that distances say the surface is in, to a level that shows it, or that Maximum cells
-    /// allows: then bands around what is found go on.
+    /// Does a cube have vertices on both sides?
+    template <int dim>
+    bool
+    shows_surface(const Scene<dim> &scene, const Point<dim> &centre, const double edge)
+    {
+      const bool is_liquid = scene.liquid_distance(centre) < 0;
+      for (unsigned int i = 0; i < 1u << dim; ++i)
+        if ((scene.liquid_distance(vertex_of_cube(centre, edge, i)) < 0) != is_liquid)
+          return true;
+      return false;
+    }
+
+    /// Leaves that distances say the surface is in, to a level that shows it; from about as many on as
+    /// Maximum cells allows only those that show nothing of it: bands around what is found go on.
     template <int dim>
     typename Octree<dim>::Criterion
     around_distances(const MPI_Comm &comm, const OctreeParameters<dim> &prm, const Scene<dim> &scene)
     {
       return [&, n_leaves = 0.](const std::vector<Leaf<dim>> &leaves) mutable {
+        const bool is_full = prm.maximum_cells > 0 && prm.n_cells(n_leaves) > prm.maximum_cells;
         std::vector<bool> near;
         double            n_near = 0;
         for (const Leaf<dim> &leaf : leaves)
           {
-            const Point<dim> x = centre<dim>(prm, leaf);
+            const Point<dim> x    = centre<dim>(prm, leaf);
+            const double     edge = prm.size_of(leaf.level);
             near.push_back(is_within(prm, leaf, scene.liquid_distance(x), prm.finest_size()) &&
-                           (leaf.level < prm.coarsest_at_surface() ||
-                            may_hide_something(scene, x, prm.size_of(leaf.level))));
+                           (leaf.level < prm.coarsest_at_surface() || may_hide_something(scene, x, edge)) &&
+                           !(is_full && shows_surface(scene, x, edge)));
             n_near += near.back();
           }
-        n_leaves += (1u << dim) * Utilities::MPI::sum(n_near, comm);
-        if (prm.maximum_cells > 0 && prm.n_cells(n_leaves) > prm.maximum_cells)
-          near.assign(near.size(), false);
+        n_leaves += ((1u << dim) - 1) * Utilities::MPI::sum(n_near, comm);
         return near;
       };
     }

@@ -65,7 +65,7 @@ namespace treacle
       return with(1);
     // powers of it, by bisection from the coarse end: no memory may hold the finest
     constexpr double coarser = 1.25;
-    const double     largest = prm.size_of(prm.coarsest_at_surface()) / prm.smallest_asked();
+    const double     largest = prm.size_of(prm.coarsest_at_surface()) / prm.size_of(prm.level_asked());
     int              least = 0, most = std::ceil(std::log(largest) / std::log(coarser));
     auto             result = with(std::pow(coarser, most));
     while (least < most && !is_full(*result))

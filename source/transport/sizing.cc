@@ -98,7 +98,7 @@ namespace treacle
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       if (const double k = curvature.local_element(node); k >= 0)
         size.local_element(node) =
-          std::max(prm.smallest_asked(), coarsest / std::max(1., prm.leaves_per_radius * k * coarsest));
+          std::max(prm.size_of(prm.level_asked()), coarsest / std::max(1., prm.leaves_per_radius * k * coarsest));
     return size;
   }
 
@@ -124,7 +124,7 @@ namespace treacle
           if (largest)
             keep_error(error, [&] {
               s = std::min(s, size_by_formula(mesh.node_position[node], state.time));
-              s = std::max(s, prm.smallest_asked());
+              s = std::max(s, prm.size_of(prm.level_asked()));
             });
         }
     throw_first(mesh.communicator(), error);
@@ -144,12 +144,13 @@ namespace treacle
   {
     // a point below the surface and one above it for each level that may be too coarse
     const Mesh<dim>        &mesh = *state.mesh;
+    const unsigned int      last = prm.level_asked();
     std::vector<Point<dim>> points;
     const auto              depth = [&](const unsigned int level) {
       return prm.leaves_across * prm.size_of(level) / (1 + least_depth);
     };
     for (const LocalIndex node : nodes)
-      for (unsigned int level = prm.coarsest_at_surface(); level < prm.surface_level; ++level)
+      for (unsigned int level = prm.coarsest_at_surface(); level < last; ++level)
         for (const double side : {-1., 1.})
           points.push_back(mesh.node_position[node] +
                            (side * depth(level) - state.phi.local_element(node)) * normal.value(node));
@@ -164,7 +165,7 @@ namespace treacle
     std::string error;
     keep_error(error, [&] {
       for (unsigned int i = 0, k = 0; i < nodes.size(); ++i)
-        for (unsigned int level = prm.coarsest_at_surface(); level < prm.surface_level; ++level, k += 2)
+        for (unsigned int level = prm.coarsest_at_surface(); level < last; ++level, k += 2)
           if (is_near(k, -phi[k], depth(level)) || is_near(k + 1, phi[k + 1], depth(level)))
             size.local_element(nodes[i]) =
               std::min(size.local_element(nodes[i]), prm.size_of(level + 1));

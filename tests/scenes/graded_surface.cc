@@ -117,11 +117,10 @@ namespace
                 mesh + "set Maximum cells = " + (dim == 2 ? "1200" : "8000") +
                   "\nend\nsubsection Liquid 1\nset Centre = 0.5, 0.5" + all + "\nset Radius = 0.1\nend\n",
                 0);
-    levels<dim>(comm,
-                "large and small drop",
-                mesh + "end\nsubsection Liquid 1\nset Shape = expression\nset Expression = min(sqrt((x - 0.4)^2 + (" + y +
-                  " - 0.4)^2) - 0.3, sqrt((x - 0.82)^2 + (" + y + " - 0.82)^2) - 0.03)\nend\n",
-                0);
+    const std::string drops = "end\nsubsection Liquid 1\nset Shape = expression\nset Expression = min(sqrt((x - 0.4)^2 + (" + y +
+                              " - 0.4)^2) - 0.3, sqrt((x - 0.82)^2 + (" + y + " - 0.82)^2) - 0.03)\nend\n";
+    levels<dim>(comm, "large and small drop", mesh + drops, 0);
+    levels<dim>(comm, "the same in few cells", mesh + "set Maximum cells = " + (dim == 2 ? "1100" : "20000") + "\n" + drops, 0);
     const std::string full = "subsection Liquid 1\nset Shape = expression\nset Expression = -1\nend\n";
     levels<dim>(comm,
                 "solid and walls",

@@ -58,12 +58,12 @@ namespace treacle
       return std::ldexp(finest_size(), static_cast<int>(surface_level) - static_cast<int>(level));
     }
 
-    /// The smallest edge that the surface asks for (m): two levels beyond the finest leaves, so that
-    /// Maximum cells makes what is sharper coarse last, but edges and creases not at the cost of all else.
-    double
-    smallest_asked() const
+    /// The finest level that the surface asks for: with Maximum cells two beyond that of the surface, so that what
+    /// is sharper or thinner becomes coarse last, but edges and creases not at the cost of all else.
+    unsigned int
+    level_asked() const
     {
-      return 0.25 * finest_size();
+      return surface_level + (maximum_cells > 0 ? 2 : 0);
     }
 
     /// The cells that stand on so many leaves, about.

@@ -28,8 +28,8 @@ namespace treacle
       return prm.coarsest_at_surface() == prm.surface_level;
     }
 
-    /// The largest leaf edge (m) at the nodes of cells that the surface cuts, from that of the surface
-    /// level to that of the coarsest one; 0 at all other nodes, and everywhere if its leaves have one size. Collective.
+    /// The largest leaf edge (m) at the nodes of cells that the surface cuts, from that of the finest
+    /// level that it may ask for to that of the coarsest one; 0 at all other nodes, and everywhere if its leaves have one size. Collective.
     Vector
     at_surface(const State<dim> &state, const SurfaceGeometry<dim> &surface) const;
 
