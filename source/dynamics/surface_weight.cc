@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/mesh/locator.h>
-#include <treacle/mesh/surface_size.h>
 #include <treacle/base/exchange.h>
 #include <treacle/dynamics/surface_weight.h>
+#include <treacle/mesh/locator.h>
+#include <treacle/mesh/surface_size.h>
 
 namespace treacle
 {

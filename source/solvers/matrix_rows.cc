@@ -24,18 +24,21 @@ namespace treacle
                    const std::vector<GlobalIndex>       &others,
                    const TrilinosWrappers::SparseMatrix *alike)
   {
-    auto result = alike == nullptr ? make(comm, rows, others) :
-                                     std::make_unique<TrilinosWrappers::SparseMatrix>();
-    if (alike != nullptr)
-      {
-        result->reinit(*alike); // shares its graph
-        const Epetra_CrsMatrix &matrix = result->trilinos_matrix();
-        AssertThrow(matrix.NumMyNonzeros() == static_cast<int>(values.size()),
-                    ExcMessage("A matrix has other entries than the one it is to be like."));
-        if (!values.empty())
-          std::copy(values.begin(), values.end(), matrix[0]);
-      }
-    *this = MatrixRows();
+    auto result = alike == nullptr ? make(comm, rows, others) : make_alike(*alike);
+    *this       = MatrixRows();
+    return result;
+  }
+
+  std::unique_ptr<TrilinosWrappers::SparseMatrix>
+  MatrixRows::make_alike(const TrilinosWrappers::SparseMatrix &alike) const
+  {
+    auto result = std::make_unique<TrilinosWrappers::SparseMatrix>();
+    result->reinit(alike); // shares its graph
+    const Epetra_CrsMatrix &matrix = result->trilinos_matrix();
+    AssertThrow(matrix.NumMyNonzeros() == static_cast<int>(values.size()),
+                ExcMessage("A matrix has other entries than the one it is to be like."));
+    if (!values.empty())
+      std::copy(values.begin(), values.end(), matrix[0]);
     return result;
   }
 

@@ -133,7 +133,12 @@ namespace treacle
             });
           }
         project(seeds);
-        seeds = to_owners(mesh, seeds);
+        seeds = to_owners(mesh, seeds); // who know how large leaves are
+        if (state.step == 0)
+          {
+            project_to_bodies(seeds);
+            seeds = to_owners(mesh, seeds);
+          }
         keep_in_line(seeds);
         state.markers.insert(state.markers.end(), seeds.begin(), seeds.end());
       }
@@ -209,11 +214,6 @@ namespace treacle
                   seeds[k].normal = g / g.norm();
                 }
             clamp(seeds);
-          }
-        if (state.step == 0)
-          {
-            seeds = to_owners(mesh, seeds); // who know how large leaves are
-            project_to_bodies(seeds);
           }
       }
 

@@ -76,11 +76,10 @@ namespace treacle
     /// vertices all on one side.
     template <int dim>
     bool
-    may_hide_something(const Scene<dim> &scene, const Point<dim> &centre, const double edge)
+    may_hide_something(const Scene<dim> &scene, const Point<dim> &centre, const double in_middle, const double edge)
     {
       constexpr double   largest_part = 0.1; // of the edge
       constexpr double   wider        = 1.5; // to see a sheet that lies between two
-      const double       in_middle    = scene.liquid_distance(centre);
       const unsigned int last         = (1u << dim) - 1;
       for (unsigned int i = 0; 2 * i < last; ++i)
         if (const double mean = 0.5 * (scene.liquid_distance(vertex_of_cube(centre, wider * edge, i)) +
@@ -90,20 +89,22 @@ namespace treacle
       return false;
     }
 
-    /// Does a cube have vertices on both sides?
+    /// Is there a surface in a cube whose vertices are all on one side? A plane so near its middle would
+    /// part them.
     template <int dim>
     bool
-    shows_surface(const Scene<dim> &scene, const Point<dim> &centre, const double edge)
+    hides_surface(const Scene<dim> &scene, const Point<dim> &centre, const double in_middle, const double edge)
     {
-      const bool is_liquid = scene.liquid_distance(centre) < 0;
+      if (std::abs(in_middle) >= 0.5 * edge)
+        return false;
       for (unsigned int i = 0; i < 1u << dim; ++i)
-        if ((scene.liquid_distance(vertex_of_cube(centre, edge, i)) < 0) != is_liquid)
-          return true;
-      return false;
+        if ((scene.liquid_distance(vertex_of_cube(centre, edge, i)) < 0) != (in_middle < 0))
+          return false;
+      return true;
     }
 
     /// Leaves that distances say the surface is in, to a level that shows it; from about as many on as
-    /// Maximum cells allows only those that show nothing of it: bands around what is found go on.
+    /// Maximum cells allows only those that hide it: bands around what is found go on.
     template <int dim>
     typename Octree<dim>::Criterion
     around_distances(const MPI_Comm &comm, const OctreeParameters<dim> &prm, const Scene<dim> &scene)
@@ -114,11 +115,12 @@ namespace treacle
         double            n_near = 0;
         for (const Leaf<dim> &leaf : leaves)
           {
-            const Point<dim> x    = centre<dim>(prm, leaf);
-            const double     edge = prm.size_of(leaf.level);
-            near.push_back(is_within(prm, leaf, scene.liquid_distance(x), prm.finest_size()) &&
-                           (leaf.level < prm.coarsest_at_surface() || may_hide_something(scene, x, edge)) &&
-                           !(is_full && shows_surface(scene, x, edge)));
+            const Point<dim> x         = centre<dim>(prm, leaf);
+            const double     in_middle = scene.liquid_distance(x), edge = prm.size_of(leaf.level);
+            near.push_back(
+              is_within(prm, leaf, in_middle, prm.finest_size()) &&
+              (leaf.level < prm.coarsest_at_surface() || may_hide_something(scene, x, in_middle, edge)) &&
+              (!is_full || hides_surface(scene, x, in_middle, edge)));
             n_near += near.back();
           }
         n_leaves += ((1u << dim) - 1) * Utilities::MPI::sum(n_near, comm);

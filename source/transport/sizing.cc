@@ -144,13 +144,12 @@ namespace treacle
   {
     // a point below the surface and one above it for each level that may be too coarse
     const Mesh<dim>        &mesh = *state.mesh;
-    const unsigned int      last = prm.level_asked();
     std::vector<Point<dim>> points;
     const auto              depth = [&](const unsigned int level) {
       return prm.leaves_across * prm.size_of(level) / (1 + least_depth);
     };
     for (const LocalIndex node : nodes)
-      for (unsigned int level = prm.coarsest_at_surface(); level < last; ++level)
+      for (unsigned int level = prm.coarsest_at_surface(); level < prm.surface_level; ++level)
         for (const double side : {-1., 1.})
           points.push_back(mesh.node_position[node] +
                            (side * depth(level) - state.phi.local_element(node)) * normal.value(node));
@@ -165,7 +164,7 @@ namespace treacle
     std::string error;
     keep_error(error, [&] {
       for (unsigned int i = 0, k = 0; i < nodes.size(); ++i)
-        for (unsigned int level = prm.coarsest_at_surface(); level < last; ++level, k += 2)
+        for (unsigned int level = prm.coarsest_at_surface(); level < prm.surface_level; ++level, k += 2)
           if (is_near(k, -phi[k], depth(level)) || is_near(k + 1, phi[k + 1], depth(level)))
             size.local_element(nodes[i]) =
               std::min(size.local_element(nodes[i]), prm.size_of(level + 1));

@@ -58,8 +58,8 @@ namespace treacle
       return std::ldexp(finest_size(), static_cast<int>(surface_level) - static_cast<int>(level));
     }
 
-    /// The finest level that the surface asks for: with Maximum cells two beyond that of the surface, so that what
-    /// is sharper or thinner becomes coarse last, but edges and creases not at the cost of all else.
+    /// The finest level that curvature and Size ask for along the surface: with Maximum cells two beyond its own, so
+    /// that what is sharper becomes coarse last, but edges and creases not at the cost of all else.
     unsigned int
     level_asked() const
     {

@@ -36,6 +36,9 @@ namespace treacle
     std::unique_ptr<TrilinosWrappers::SparseMatrix>
     make(const MPI_Comm &comm, const IndexSet &rows, const std::vector<GlobalIndex> &others);
 
+    std::unique_ptr<TrilinosWrappers::SparseMatrix>
+    make_alike(const TrilinosWrappers::SparseMatrix &alike) const;
+
     std::vector<int>    lengths, columns;
     std::vector<double> values;
   };
