@@ -4,6 +4,7 @@
 #include <treacle/base/choice.h>
 #include <treacle/fields/liquid_volume.h>
 #include <treacle/fields/moved_points.h>
+#include <treacle/surface/air_pockets.h>
 #include <treacle/surface/marker_correction.h>
 #include <treacle/surface/marker_seeding.h>
 #include <treacle/surface/redistance.h>
@@ -54,7 +55,10 @@ namespace treacle
 
   template <int dim>
   void
-  SurfaceTracking<dim>::follow_markers(State<dim> &state, const double reach) const
+  SurfaceTracking<dim>::follow_markers(State<dim>          &state,
+                                       const MeshData<dim> &data,
+                                       const double         dt,
+                                       const double         reach) const
   {
     if (has_markers())
       {
@@ -65,6 +69,7 @@ namespace treacle
       }
     else
       redistance(state, reach);
+    close_air_pockets(state, data, dt, reach);
   }
 
   template <int dim>

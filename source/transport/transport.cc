@@ -53,7 +53,7 @@ namespace treacle
     const double emitted = emit(*next, *data, difference.dt);
     auto         lost    = lost_in_walls(
       scene, *old.mesh, liquid.surface->facets, ends, old.time, next->time);
-    tracking.follow_markers(*next, time_step.reach_of_distance(reach, *mesh));
+    tracking.follow_markers(*next, *data, difference.dt, time_step.reach_of_distance(reach, *mesh));
     const double wanted  = volume + emitted;
     // what earlier steps left to be corrected is not of this one
     const double won = liquid_volume(*data, next->phi, next->time) - emitted -

@@ -11,7 +11,7 @@
 
 namespace treacle
 {
-  /// Mends phi after it was advected: its place by the markers, distances, and the volume.
+  /// Mends phi after it was advected: its place by the markers, distances, air that is enclosed, and the volume.
   template <int dim>
   class SurfaceTracking
   {
@@ -36,24 +36,24 @@ namespace treacle
       : prm(parameters)
     {}
 
-    /// @p state has phi and markers of the new time, which correct it. Distances within
-    /// @p reach (m).
+    /// @p state has phi and markers of the new time, which correct it, and air that a step @p dt (s) like
+    /// this one fills becomes liquid. Distances within @p reach (m).
     void
-    follow_markers(State<dim> &state, const double reach) const;
+    follow_markers(State<dim> &state, const MeshData<dim> &data, const double dt, const double reach) const;
 
     /// The surface, with volume correction moved to restore @p volume (m^dim), and with markers
     /// where it has too few.
     std::unique_ptr<const SurfaceGeometry<dim>>
     settle(State<dim> &state, const MeshData<dim> &data, const double volume) const;
 
-    /// One after the other.
+    /// One after the other, after a move that takes no time.
     std::unique_ptr<const SurfaceGeometry<dim>>
     advance(State<dim>          &state,
             const MeshData<dim> &data,
             const double         reach,
             const double         volume) const
     {
-      follow_markers(state, reach);
+      follow_markers(state, data, 0, reach);
       return settle(state, data, volume);
     }
 

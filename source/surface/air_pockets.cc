@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/fields/flood.h>
+#include <treacle/geometry/cut_simplex.h>
+#include <treacle/surface/air_pockets.h>
+#include <treacle/surface/surface_distance.h>
+
+#include <map>
+#include <set>
+
+namespace treacle
+{
+  namespace
+  {
+    /// Of its volume, that may fill in a step of what is thin: whose volume over the area of its surface is less than half a
+    /// leaf, as that of a sheet of a leaf, a disc of two, a ball of three across. What is larger is seen to shrink.
+    constexpr double most_filled = 0.25, thin = 0.5;
+
+    /// From the surface (leaves): air that goes on further is not looked at.
+    constexpr double deep = 2;
+
+    /// The label of such air.
+    constexpr double open = 0;
+
+    /// A part of the air that is connected.
+    struct AirPart
+    {
+      double volume = 0; ///< outside of solids (m^dim)
+      double inflow = 0; ///< of liquid, and of solids (m^dim/s)
+      double area   = 0; ///< of the surface of liquid about it (m^(dim-1))
+      double wall   = 0; ///< of solids (m^(dim-1))
+      double size   = 0; ///< edge of the smallest leaf (m)
+
+      void
+      add(const AirPart &other)
+      {
+        volume += other.volume;
+        inflow += other.inflow;
+        area += other.area;
+        wall += other.wall;
+        size = size == 0 ? other.size : std::min(size, other.size);
+      }
+
+      /// What is smaller than a leaf may have met the liquid in this step, and its velocity does not know; in a wedge
+      /// between liquid and a solid that is not so.
+      bool
+      is_filled_within(const double dt, const unsigned int dim) const
+      {
+        return volume < thin * size * area &&
+               (dt * inflow > most_filled * volume ||
+                (inflow >= 0 && wall == 0 && volume < std::pow(size, dim)));
+      }
+    };
+
+    /// Are two P1 functions positive somewhere together, in a simplex of n vertices? If so, on an edge.
+    template <std::size_t n>
+    bool
+    are_positive(const std::array<double, n> &a, const std::array<double, n> &b)
+    {
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = i; j < n; ++j)
+          {
+            const double at_i = a[i] - b[i], at_j = a[j] - b[j];
+            const double t    = at_i * at_j < 0 ? at_i / (at_i - at_j) : 0.;
+            if (std::min((1 - t) * a[i] + t * a[j], (1 - t) * b[i] + t * b[j]) > 0)
+              return true;
+          }
+      return false;
+    }
+
+    template <int dim>
+    class AirParts
+    {
+    public:
+      AirParts(const State<dim> &state, const MeshData<dim> &data)
+        : scene(data.scene)
+        , state(state)
+        , mesh(data.mesh)
+        , from_solid(data.solid_distance(state.time))
+        , label(mesh.cells)
+      {
+        for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+          label.local_element(c) = first_label(c);
+        const auto neighbours = [this](const LocalIndex c, const auto &visit) {
+          for (const LocalIndex f : mesh.cell_faces[c])
+            if (const auto &[lower, upper] = mesh.face_cells[f];
+                upper != invalid && has_air(mesh.face_nodes[f]))
+              visit(lower == c ? upper : lower);
+        };
+        Flood(label, neighbours).run();
+      }
+
+      /// The labels of the parts that a step fills. Collective.
+      std::set<double>
+      filled_within(const double dt) const
+      {
+        std::set<double> result;
+        for (const auto &[l, part] : sums())
+          if (part.is_filled_within(dt, dim))
+            result.insert(l);
+        return result;
+      }
+
+      /// Is it an owned node of the air, or of a solid, about which there are only these?
+      bool
+      is_node_of(const LocalIndex node, const std::set<double> &parts) const
+      {
+        bool is_beside = false;
+        for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+          if (const double l = label.local_element(mesh.node_cells[k]); l >= 0)
+            {
+              if (parts.count(l) == 0)
+                return false;
+              is_beside = true;
+            }
+        return is_beside && state.phi.local_element(node) >= 0;
+      }
+
+    private:
+      /// Of its own where the cell has air, but none in the middle of the air.
+      double
+      first_label(const LocalIndex c) const
+      {
+        const VertexValues<dim> phi     = mesh.values(c, state.phi);
+        const auto [lowest, highest]    = std::minmax_element(phi.begin(), phi.end());
+        const double            farther = deep * mesh.cell_size[c];
+        if (*lowest > farther || !has_air(mesh.cell_nodes[c]))
+          return -1;
+        return *highest > farther ? open : 1. + mesh.cells->local_to_global(c);
+      }
+
+      /// Of a cell or a face.
+      template <std::size_t n>
+      bool
+      has_air(const std::array<LocalIndex, n> &nodes) const
+      {
+        std::array<double, n> phi, psi;
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            phi[i] = state.phi.local_element(nodes[i]);
+            psi[i] = from_solid[nodes[i]];
+          }
+        return are_positive(phi, psi);
+      }
+
+      /// Of all parts, by label. Collective.
+      std::map<double, AirPart>
+      sums() const
+      {
+        std::map<double, AirPart> here, all;
+        for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+          if (const double l = label.local_element(c); l > open)
+            here[l].add(in_cell(c));
+        std::vector<std::array<double, 6>> packed;
+        for (const auto &[l, p] : here)
+          packed.push_back({{l, p.volume, p.inflow, p.area, p.wall, p.size}});
+        for (const auto &rank : Utilities::MPI::all_gather(mesh.communicator(), packed))
+          for (const auto &[l, volume, inflow, area, wall, size] : rank)
+            all[l].add(AirPart{volume, inflow, area, wall, size});
+        return all;
+      }
+
+      AirPart
+      in_cell(const LocalIndex c) const
+      {
+        const VertexValues<dim> phi = mesh.values(c, state.phi), psi = mesh.values(c, from_solid);
+        VertexValues<dim>       air;
+        std::transform(phi.begin(), phi.end(), air.begin(), std::negate<>());
+        AirPart result{liquid_moments<dim>(mesh.cell_vertices(c), air, psi).volume, 0, 0, 0, mesh.cell_size[c]};
+        for_each_facet_in_air(c, phi, psi, [&](const Tensor<1, dim> &area, const Point<dim> &x) {
+          result.inflow += area * velocity(c, x);
+          result.area += area.norm();
+        });
+        for_each_facet_in_air(c, psi, phi, [&](const Tensor<1, dim> &area, const Point<dim> &x) {
+          result.inflow += area * scene.solid_velocity(x, state.time);
+          result.wall += area.norm();
+        });
+        return result;
+      }
+
+      /// Call @p visit with the area vector, into the air, and the centroid of those of f = 0 that have
+      /// it in {g > 0}.
+      template <typename Visit>
+      void
+      for_each_facet_in_air(const LocalIndex         c,
+                            const VertexValues<dim> &f,
+                            const VertexValues<dim> &g,
+                            const Visit             &visit) const
+      {
+        const Simplex<dim> vertices = mesh.cell_vertices(c);
+        const auto         position = [&](const unsigned int i) { return vertices[i]; };
+        const Facets<dim>  facets   = surface_facets<dim>(f);
+        for (unsigned int k = 0; k < facets.n; ++k)
+          {
+            const auto x = facet_points<dim>(facets.facet[k], f, position);
+            Point<dim> centre;
+            for (const Point<dim> &y : x)
+              centre += y / dim;
+            if (interpolate(g, coordinates(c, centre)) > 0)
+              visit(area_vector<dim>(x), centre);
+          }
+      }
+
+      /// Barycentric ones in a cell.
+      VertexValues<dim>
+      coordinates(const LocalIndex c, const Point<dim> &x) const
+      {
+        VertexValues<dim> lambda;
+        for (unsigned int i = 0; i <= dim; ++i)
+          lambda[i] = (i == 0 ? 1. : 0.) +
+                      mesh.cell_gradients[c][i] * (x - mesh.node_position[mesh.cell_nodes[c][0]]);
+        return lambda;
+      }
+
+      Tensor<1, dim>
+      velocity(const LocalIndex c, const Point<dim> &x) const
+      {
+        const VertexValues<dim> lambda = coordinates(c, x);
+        Tensor<1, dim>          v;
+        for (unsigned int i = 0; i <= dim; ++i)
+          v += lambda[i] * state.v.value(mesh.cell_nodes[c][i]);
+        return v;
+      }
+
+      const Scene<dim>          &scene;
+      const State<dim>          &state;
+      const Mesh<dim>           &mesh;
+      const std::vector<double> &from_solid;
+      Vector                     label; ///< of a cell's air; negative without any, and far from liquid
+    };
+
+    /// The facets of one surface that another of the same mesh is without.
+    template <int dim>
+    Surface<dim>
+    difference(const Surface<dim> &surface, const Vector &phi)
+    {
+      Surface<dim> result = surface;
+      result.facets.clear();
+      for (const auto &facet : surface.facets)
+        {
+          const auto &vertex = surface.vertices[facet[0]];
+          if (phi.local_element(vertex.a) < 0 && phi.local_element(vertex.b) < 0)
+            result.facets.push_back(facet);
+        }
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  close_air_pockets(State<dim> &state, const MeshData<dim> &data, const double dt, const double reach)
+  {
+    const Mesh<dim>        &mesh = data.mesh;
+    const AirParts<dim>     air(state, data);
+    const std::set<double> closed = air.filled_within(dt);
+    if (closed.empty())
+      return;
+    Vector phi = state.phi;
+    phi.zero_out_ghost_values();
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      if (air.is_node_of(node, closed))
+        phi.local_element(node) = -reach;
+    phi.update_ghost_values();
+    const SurfaceDistance<dim> kept(mesh, extract_surface(mesh, phi), reach),
+      gone(mesh, difference(extract_surface(mesh, state.phi), phi), reach);
+    const auto was_nearer = [&](const Point<dim> &x) {
+      const double to_gone = gone.nearest(x).distance;
+      return to_gone < reach && to_gone < kept.nearest(x, to_gone).distance;
+    };
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      if (double &value = phi.local_element(node);
+          value < 0 && was_nearer(mesh.node_position[node]))
+        value = -std::min(reach, kept.nearest(mesh.node_position[node]).distance);
+    phi.update_ghost_values();
+    state.phi = phi;
+    state.phi.update_ghost_values();
+    state.markers.erase(std::remove_if(state.markers.begin(),
+                                       state.markers.end(),
+                                       [&](const Marker<dim> &marker) {
+                                         return was_nearer(marker.position);
+                                       }),
+                        state.markers.end());
+  }
+
+  template void
+  close_air_pockets(State<2> &, const MeshData<2> &, const double, const double);
+  template void
+  close_air_pockets(State<3> &, const MeshData<3> &, const double, const double);
+} // namespace treacle
