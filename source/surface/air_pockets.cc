@@ -3,6 +3,7 @@
 
 #include <treacle/fields/flood.h>
 #include <treacle/geometry/cut_simplex.h>
+#include <treacle/mesh/surface_size.h>
 #include <treacle/surface/air_pockets.h>
 #include <treacle/surface/surface_distance.h>
 
@@ -17,6 +18,9 @@ namespace treacle
     /// leaf, as that of a sheet of a leaf, a disc of two, a ball of three across. What is larger is seen to shrink.
     constexpr double most_filled = 0.25, thin = 0.5;
 
+    /// Part of the volume that moves in or out by roundoff, as in a body that moves as a rigid one.
+    constexpr double noise = 0.01;
+
     /// From the surface (leaves): air that goes on further is not looked at.
     constexpr double deep = 2;
 
@@ -29,8 +33,8 @@ namespace treacle
       double volume = 0; ///< outside of solids (m^dim)
       double inflow = 0; ///< of liquid, and of solids (m^dim/s)
       double area   = 0; ///< of the surface of liquid about it (m^(dim-1))
-      double wall   = 0; ///< of solids (m^(dim-1))
       double size   = 0; ///< edge of the smallest leaf (m)
+      double solid  = 0; ///< 1 beside one
 
       void
       add(const AirPart &other)
@@ -38,18 +42,18 @@ namespace treacle
         volume += other.volume;
         inflow += other.inflow;
         area += other.area;
-        wall += other.wall;
-        size = size == 0 ? other.size : std::min(size, other.size);
+        size  = size == 0 ? other.size : std::min(size, other.size);
+        solid = std::max(solid, other.solid);
       }
 
-      /// What is smaller than a leaf may have met the liquid in this step, and its velocity does not know; in a wedge
-      /// between liquid and a solid that is not so.
+      /// What is smaller than a leaf may have met the liquid in this step, and its velocity does not know, only that it does
+      /// not open; in a wedge between liquid and a solid that is not so.
       bool
       is_filled_within(const double dt, const unsigned int dim) const
       {
+        const double filled = dt * inflow / volume;
         return volume < thin * size * area &&
-               (dt * inflow > most_filled * volume ||
-                (inflow >= 0 && wall == 0 && volume < std::pow(size, dim)));
+               (filled > most_filled || (filled > -noise && solid == 0 && volume < std::pow(size, dim)));
       }
     };
 
@@ -73,6 +77,7 @@ namespace treacle
     class AirParts
     {
     public:
+      /// Collective.
       AirParts(const State<dim> &state, const MeshData<dim> &data)
         : scene(data.scene)
         , state(state)
@@ -106,6 +111,8 @@ namespace treacle
       bool
       is_node_of(const LocalIndex node, const std::set<double> &parts) const
       {
+        if (state.phi.local_element(node) < 0)
+          return false;
         bool is_beside = false;
         for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
           if (const double l = label.local_element(mesh.node_cells[k]); l >= 0)
@@ -114,7 +121,7 @@ namespace treacle
                 return false;
               is_beside = true;
             }
-        return is_beside && state.phi.local_element(node) >= 0;
+        return is_beside;
       }
 
     private:
@@ -124,7 +131,7 @@ namespace treacle
       {
         const VertexValues<dim> phi     = mesh.values(c, state.phi);
         const auto [lowest, highest]    = std::minmax_element(phi.begin(), phi.end());
-        const double            farther = deep * mesh.cell_size[c];
+        const double            farther = deep * largest_surface_size(mesh);
         if (*lowest > farther || !has_air(mesh.cell_nodes[c]))
           return -1;
         return *highest > farther ? open : 1. + mesh.cells->local_to_global(c);
@@ -154,10 +161,10 @@ namespace treacle
             here[l].add(in_cell(c));
         std::vector<std::array<double, 6>> packed;
         for (const auto &[l, p] : here)
-          packed.push_back({{l, p.volume, p.inflow, p.area, p.wall, p.size}});
+          packed.push_back({{l, p.volume, p.inflow, p.area, p.size, p.solid}});
         for (const auto &rank : Utilities::MPI::all_gather(mesh.communicator(), packed))
-          for (const auto &[l, volume, inflow, area, wall, size] : rank)
-            all[l].add(AirPart{volume, inflow, area, wall, size});
+          for (const auto &[l, volume, inflow, area, size, solid] : rank)
+            all[l].add(AirPart{volume, inflow, area, size, solid});
         return all;
       }
 
@@ -167,20 +174,23 @@ namespace treacle
         const VertexValues<dim> phi = mesh.values(c, state.phi), psi = mesh.values(c, from_solid);
         VertexValues<dim>       air;
         std::transform(phi.begin(), phi.end(), air.begin(), std::negate<>());
-        AirPart result{liquid_moments<dim>(mesh.cell_vertices(c), air, psi).volume, 0, 0, 0, mesh.cell_size[c]};
+        AirPart result{liquid_moments<dim>(mesh.cell_vertices(c), air, psi).volume,
+                       0,
+                       0,
+                       surface_size_of_cell(mesh, c),
+                       *std::min_element(psi.begin(), psi.end()) > 0 ? 0. : 1.};
         for_each_facet_in_air(c, phi, psi, [&](const Tensor<1, dim> &area, const Point<dim> &x) {
           result.inflow += area * velocity(c, x);
           result.area += area.norm();
         });
-        for_each_facet_in_air(c, psi, phi, [&](const Tensor<1, dim> &area, const Point<dim> &x) {
-          result.inflow += area * scene.solid_velocity(x, state.time);
-          result.wall += area.norm();
-        });
+        if (scene.has_moving_solids())
+          for_each_facet_in_air(c, psi, phi, [&](const Tensor<1, dim> &area, const Point<dim> &x) {
+            result.inflow += area * scene.solid_velocity(x, state.time);
+          });
         return result;
       }
 
-      /// Call @p visit with the area vector, into the air, and the centroid of those of f = 0 that have
-      /// it in {g > 0}.
+      /// Call @p visit with the area vector, into the air, and the centroid of the parts of f = 0 in {g > 0}.
       template <typename Visit>
       void
       for_each_facet_in_air(const LocalIndex         c,
@@ -193,12 +203,12 @@ namespace treacle
         const Facets<dim>  facets   = surface_facets<dim>(f);
         for (unsigned int k = 0; k < facets.n; ++k)
           {
-            const auto x = facet_points<dim>(facets.facet[k], f, position);
-            Point<dim> centre;
-            for (const Point<dim> &y : x)
-              centre += y / dim;
-            if (interpolate(g, coordinates(c, centre)) > 0)
-              visit(area_vector<dim>(x), centre);
+            const auto            x = facet_points<dim>(facets.facet[k], f, position);
+            VertexValues<dim - 1> outside;
+            for (unsigned int i = 0; i < dim; ++i)
+              outside[i] = -interpolate(g, coordinates(c, x[i]));
+            if (const double part = negative_fraction<dim - 1>(outside); part > 0)
+              visit(part * area_vector<dim>(x), negative_centroid<dim>(x, outside));
           }
       }
 
@@ -227,7 +237,7 @@ namespace treacle
       const State<dim>          &state;
       const Mesh<dim>           &mesh;
       const std::vector<double> &from_solid;
-      Vector                     label; ///< of a cell's air; negative without any, and far from liquid
+      Vector                     label; ///< of a cell's air; negative without any, and deep in it
     };
 
     /// The facets of one surface that another of the same mesh is without.
@@ -239,8 +249,11 @@ namespace treacle
       result.facets.clear();
       for (const auto &facet : surface.facets)
         {
-          const auto &vertex = surface.vertices[facet[0]];
-          if (phi.local_element(vertex.a) < 0 && phi.local_element(vertex.b) < 0)
+          const bool is_gone = std::all_of(facet.begin(), facet.end(), [&](const unsigned int i) {
+            const auto &vertex = surface.vertices[i];
+            return phi.local_element(vertex.a) < 0 && phi.local_element(vertex.b) < 0;
+          });
+          if (is_gone)
             result.facets.push_back(facet);
         }
       return result;
@@ -270,7 +283,7 @@ namespace treacle
     };
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       if (double &value = phi.local_element(node);
-          value < 0 && was_nearer(mesh.node_position[node]))
+          value == -reach || (value < 0 && was_nearer(mesh.node_position[node])))
         value = -std::min(reach, kept.nearest(mesh.node_position[node]).distance);
     phi.update_ghost_values();
     state.phi = phi;

@@ -9,12 +9,14 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <vector>
 
 namespace treacle
 {
   /// Spreads the smallest label through each connected set of the owned entries of a vector, over all
   /// ranks; entries without one have -1.
-  /// `for_each_neighbour(i, visit)` calls visit with the entries next to an owned one, ghosts among them.
+  /// `for_each_neighbour(i, visit)` calls visit with the entries next to an owned one, ghosts among them: of two, each has
+  /// the other.
   template <typename ForEachNeighbour>
   class Flood
   {
@@ -35,7 +37,7 @@ namespace treacle
     {
       // the smallest label on top, or each smaller one would flood the rest again
       stack = members;
-      std::stable_sort(stack.begin(), stack.end(), [&](const LocalIndex i, const LocalIndex j) {
+      std::sort(stack.begin(), stack.end(), [&](const LocalIndex i, const LocalIndex j) {
         return label.local_element(i) > label.local_element(j);
       });
       do

@@ -36,7 +36,7 @@ namespace treacle
       : prm(parameters)
     {}
 
-    /// @p state has phi and markers of the new time, which correct it, and air that a step @p dt (s) like
+    /// @p state has phi and markers of the new time, which correct it, and thin air that a step @p dt (s) like
     /// this one fills becomes liquid. Distances within @p reach (m).
     void
     follow_markers(State<dim> &state, const MeshData<dim> &data, const double dt, const double reach) const;
