@@ -31,10 +31,10 @@ namespace treacle
     struct AirPart
     {
       double volume = 0; ///< outside of solids (m^dim)
-      double inflow = 0; ///< of liquid, and of solids (m^dim/s)
+      double inflow = 0; ///< of liquid (m^dim/s)
       double area   = 0; ///< of the surface of liquid about it (m^(dim-1))
       double size   = 0; ///< edge of the smallest leaf (m)
-      double solid  = 0; ///< 1 beside one
+      double wall   = 0; ///< 1 at a solid or a side of the box
 
       void
       add(const AirPart &other)
@@ -43,17 +43,18 @@ namespace treacle
         inflow += other.inflow;
         area += other.area;
         size  = size == 0 ? other.size : std::min(size, other.size);
-        solid = std::max(solid, other.solid);
+        wall = std::max(wall, other.wall);
       }
 
       /// What is smaller than a leaf may have met the liquid in this step, and its velocity does not know, only that it does
-      /// not open; in a wedge between liquid and a solid that is not so.
+      /// not open. At walls all stay: to let a body touch a floor at once, by what is still between them, squirts more
+      /// out at its edges than there is energy for.
       bool
       is_filled_within(const double dt, const unsigned int dim) const
       {
         const double filled = dt * inflow / volume;
-        return volume < thin * size * area &&
-               (filled > most_filled || (filled > -noise && solid == 0 && volume < std::pow(size, dim)));
+        return wall == 0 && volume < thin * size * area &&
+               (filled > most_filled || (filled > -noise && volume < std::pow(size, dim)));
       }
     };
 
@@ -79,8 +80,7 @@ namespace treacle
     public:
       /// Collective.
       AirParts(const State<dim> &state, const MeshData<dim> &data)
-        : scene(data.scene)
-        , state(state)
+        : state(state)
         , mesh(data.mesh)
         , from_solid(data.solid_distance(state.time))
         , label(mesh.cells)
@@ -161,10 +161,10 @@ namespace treacle
             here[l].add(in_cell(c));
         std::vector<std::array<double, 6>> packed;
         for (const auto &[l, p] : here)
-          packed.push_back({{l, p.volume, p.inflow, p.area, p.size, p.solid}});
+          packed.push_back({{l, p.volume, p.inflow, p.area, p.size, p.wall}});
         for (const auto &rank : Utilities::MPI::all_gather(mesh.communicator(), packed))
-          for (const auto &[l, volume, inflow, area, size, solid] : rank)
-            all[l].add(AirPart{volume, inflow, area, size, solid});
+          for (const auto &[l, volume, inflow, area, size, wall] : rank)
+            all[l].add(AirPart{volume, inflow, area, size, wall});
         return all;
       }
 
@@ -178,16 +178,24 @@ namespace treacle
                        0,
                        0,
                        surface_size_of_cell(mesh, c),
-                       *std::min_element(psi.begin(), psi.end()) > 0 ? 0. : 1.};
+                       is_at_wall(c) ? 1. : 0.};
         for_each_facet_in_air(c, phi, psi, [&](const Tensor<1, dim> &area, const Point<dim> &x) {
           result.inflow += area * velocity(c, x);
           result.area += area.norm();
         });
-        if (scene.has_moving_solids())
-          for_each_facet_in_air(c, psi, phi, [&](const Tensor<1, dim> &area, const Point<dim> &x) {
-            result.inflow += area * scene.solid_velocity(x, state.time);
-          });
         return result;
+      }
+
+      /// Is a node in a solid, or air on a side of the box?
+      bool
+      is_at_wall(const LocalIndex c) const
+      {
+        const auto &nodes = mesh.cell_nodes[c];
+        const auto &faces = mesh.cell_faces[c];
+        return std::any_of(nodes.begin(), nodes.end(), [&](const LocalIndex node) { return from_solid[node] <= 0; }) ||
+               std::any_of(faces.begin(), faces.end(), [&](const LocalIndex f) {
+                 return mesh.face_cells[f][1] == invalid && has_air(mesh.face_nodes[f]);
+               });
       }
 
       /// Call @p visit with the area vector, into the air, and the centroid of the parts of f = 0 in {g > 0}.
@@ -233,7 +241,6 @@ namespace treacle
         return v;
       }
 
-      const Scene<dim>          &scene;
       const State<dim>          &state;
       const Mesh<dim>           &mesh;
       const std::vector<double> &from_solid;
