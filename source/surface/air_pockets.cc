@@ -42,7 +42,7 @@ namespace treacle
         volume += other.volume;
         inflow += other.inflow;
         area += other.area;
-        size  = size == 0 ? other.size : std::min(size, other.size);
+        size = size == 0 ? other.size : std::min(size, other.size);
         wall = std::max(wall, other.wall);
       }
 
@@ -107,7 +107,7 @@ namespace treacle
         return result;
       }
 
-      /// Is it an owned node of the air, or of a solid, about which there are only these?
+      /// Is it an owned node of the air about which there are only these?
       bool
       is_node_of(const LocalIndex node, const std::set<double> &parts) const
       {
@@ -179,7 +179,9 @@ namespace treacle
                        0,
                        surface_size_of_cell(mesh, c),
                        is_at_wall(c) ? 1. : 0.};
-        for_each_facet_in_air(c, phi, psi, [&](const Tensor<1, dim> &area, const Point<dim> &x) {
+        // at walls, where some of them are in solids, it does not matter
+        for_each_facet(mesh, state.phi, c, [&](const std::array<Point<dim>, dim> &x) {
+          const Tensor<1, dim> area = area_vector<dim>(x);
           result.inflow += area * velocity(c, x);
           result.area += area.norm();
         });
@@ -198,46 +200,17 @@ namespace treacle
                });
       }
 
-      /// Call @p visit with the area vector, into the air, and the centroid of the parts of f = 0 in {g > 0}.
-      template <typename Visit>
-      void
-      for_each_facet_in_air(const LocalIndex         c,
-                            const VertexValues<dim> &f,
-                            const VertexValues<dim> &g,
-                            const Visit             &visit) const
-      {
-        const Simplex<dim> vertices = mesh.cell_vertices(c);
-        const auto         position = [&](const unsigned int i) { return vertices[i]; };
-        const Facets<dim>  facets   = surface_facets<dim>(f);
-        for (unsigned int k = 0; k < facets.n; ++k)
-          {
-            const auto            x = facet_points<dim>(facets.facet[k], f, position);
-            VertexValues<dim - 1> outside;
-            for (unsigned int i = 0; i < dim; ++i)
-              outside[i] = -interpolate(g, coordinates(c, x[i]));
-            if (const double part = negative_fraction<dim - 1>(outside); part > 0)
-              visit(part * area_vector<dim>(x), negative_centroid<dim>(x, outside));
-          }
-      }
-
-      /// Barycentric ones in a cell.
-      VertexValues<dim>
-      coordinates(const LocalIndex c, const Point<dim> &x) const
-      {
-        VertexValues<dim> lambda;
-        for (unsigned int i = 0; i <= dim; ++i)
-          lambda[i] = (i == 0 ? 1. : 0.) +
-                      mesh.cell_gradients[c][i] * (x - mesh.node_position[mesh.cell_nodes[c][0]]);
-        return lambda;
-      }
-
+      /// In the middle of a facet.
       Tensor<1, dim>
-      velocity(const LocalIndex c, const Point<dim> &x) const
+      velocity(const LocalIndex c, const std::array<Point<dim>, dim> &x) const
       {
-        const VertexValues<dim> lambda = coordinates(c, x);
+        Point<dim> middle;
+        for (const Point<dim> &y : x)
+          middle += y / dim;
+        const VertexValues<dim> lambda = barycentric_coordinates<dim>(mesh.cell_vertices(c), middle);
         Tensor<1, dim>          v;
-        for (unsigned int i = 0; i <= dim; ++i)
-          v += lambda[i] * state.v.value(mesh.cell_nodes[c][i]);
+        for (unsigned int d = 0; d < dim; ++d)
+          v[d] = interpolate(mesh.values(c, state.v.component[d]), lambda);
         return v;
       }
 
@@ -289,8 +262,7 @@ namespace treacle
       return to_gone < reach && to_gone < kept.nearest(x, to_gone).distance;
     };
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      if (double &value = phi.local_element(node);
-          value == -reach || (value < 0 && was_nearer(mesh.node_position[node])))
+      if (double &value = phi.local_element(node); value < 0 && was_nearer(mesh.node_position[node]))
         value = -std::min(reach, kept.nearest(mesh.node_position[node]).distance);
     phi.update_ghost_values();
     state.phi = phi;
