@@ -24,17 +24,17 @@ namespace treacle
     /// From the surface (leaves): air that goes on further is not looked at.
     constexpr double deep = 2;
 
-    /// The label of such air.
+    /// The label of such air, and of what is at walls: to let a body touch a floor at once, by what is still between them,
+    /// squirts more out at its edges than there is energy for.
     constexpr double open = 0;
 
     /// A part of the air that is connected.
     struct AirPart
     {
-      double volume = 0; ///< outside of solids (m^dim)
+      double volume = 0; ///< (m^dim)
       double inflow = 0; ///< of liquid (m^dim/s)
       double area   = 0; ///< of the surface of liquid about it (m^(dim-1))
       double size   = 0; ///< edge of the smallest leaf (m)
-      double wall   = 0; ///< 1 at a solid or a side of the box
 
       void
       add(const AirPart &other)
@@ -43,17 +43,15 @@ namespace treacle
         inflow += other.inflow;
         area += other.area;
         size = size == 0 ? other.size : std::min(size, other.size);
-        wall = std::max(wall, other.wall);
       }
 
       /// What is smaller than a leaf may have met the liquid in this step, and its velocity does not know, only that it does
-      /// not open. At walls all stay: to let a body touch a floor at once, by what is still between them, squirts more
-      /// out at its edges than there is energy for.
+      /// not open.
       bool
       is_filled_within(const double dt, const unsigned int dim) const
       {
         const double filled = dt * inflow / volume;
-        return wall == 0 && volume < thin * size * area &&
+        return volume < thin * size * area &&
                (filled > most_filled || (filled > -noise && volume < std::pow(size, dim)));
       }
     };
@@ -134,7 +132,7 @@ namespace treacle
         const double            farther = deep * largest_surface_size(mesh);
         if (*lowest > farther || !has_air(mesh.cell_nodes[c]))
           return -1;
-        return *highest > farther ? open : 1. + mesh.cells->local_to_global(c);
+        return *highest > farther || is_at_wall(c) ? open : 1. + mesh.cells->local_to_global(c);
       }
 
       /// Of a cell or a face.
@@ -159,27 +157,22 @@ namespace treacle
         for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
           if (const double l = label.local_element(c); l > open)
             here[l].add(in_cell(c));
-        std::vector<std::array<double, 6>> packed;
+        std::vector<std::array<double, 5>> packed;
         for (const auto &[l, p] : here)
-          packed.push_back({{l, p.volume, p.inflow, p.area, p.size, p.wall}});
+          packed.push_back({{l, p.volume, p.inflow, p.area, p.size}});
         for (const auto &rank : Utilities::MPI::all_gather(mesh.communicator(), packed))
-          for (const auto &[l, volume, inflow, area, size, wall] : rank)
-            all[l].add(AirPart{volume, inflow, area, size, wall});
+          for (const auto &[l, volume, inflow, area, size] : rank)
+            all[l].add(AirPart{volume, inflow, area, size});
         return all;
       }
 
       AirPart
       in_cell(const LocalIndex c) const
       {
-        const VertexValues<dim> phi = mesh.values(c, state.phi), psi = mesh.values(c, from_solid);
-        VertexValues<dim>       air;
-        std::transform(phi.begin(), phi.end(), air.begin(), std::negate<>());
-        AirPart result{liquid_moments<dim>(mesh.cell_vertices(c), air, psi).volume,
-                       0,
-                       0,
-                       surface_size_of_cell(mesh, c),
-                       is_at_wall(c) ? 1. : 0.};
-        // at walls, where some of them are in solids, it does not matter
+        VertexValues<dim> air = mesh.values(c, state.phi);
+        for (double &value : air)
+          value = -value;
+        AirPart result{negative_fraction<dim>(air) * mesh.cell_volume[c], 0, 0, surface_size_of_cell(mesh, c)};
         for_each_facet(mesh, state.phi, c, [&](const std::array<Point<dim>, dim> &x) {
           const Tensor<1, dim> area = area_vector<dim>(x);
           result.inflow += area * velocity(c, x);
