@@ -3,6 +3,7 @@
 
 #include <treacle/base/choice.h>
 #include <treacle/base/exchange.h>
+#include <treacle/fields/held_nodes.h>
 #include <treacle/fields/liquid_domain.h>
 #include <treacle/fields/viscosity_jumps.h>
 
@@ -43,8 +44,12 @@ namespace treacle
       cut_cells = CutCells<dim>(mesh, scene, solid_distance, state.time);
     find_emitters(state.time);
     measure_cells(state);
+    HeldNodes<dim> held = held_nodes(scene, state, solid_distance, is_emitter_node);
+    constrained         = std::move(held.constrained);
+    prescribed          = std::move(held.prescribed);
+    find_free_cells();
     measure_faces(state);
-    measure_nodes(state);
+    measure_nodes();
   }
 
   template <int dim>
@@ -195,7 +200,7 @@ namespace treacle
     if (is_pressure_cell[i] && is_pressure_cell[j])
       return 1;
     if (!is_pressure_cell[i] && !is_pressure_cell[j])
-      return minimum_theta;
+      return is_free_face(face) ? (liquid_fraction(i) + liquid_fraction(j)) / 2 : minimum_theta;
     const double a = dual_distance[is_pressure_cell[i] ? i : j];
     const double b = std::max(0., dual_distance[is_pressure_cell[i] ? j : i]);
     return a / (a - b);
@@ -239,7 +244,29 @@ namespace treacle
 
   template <int dim>
   void
-  LiquidDomain<dim>::measure_nodes(const State<dim> &state)
+  LiquidDomain<dim>::find_free_cells()
+  {
+    Vector is_bound = mesh.zeros(mesh.nodes);
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      {
+        is_bound.local_element(node) = constrained[node] != 0;
+        for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+          if (is_pressure_cell[mesh.node_cells[k]])
+            is_bound.local_element(node) = 1;
+      }
+    is_bound.update_ghost_values();
+    is_free_cell.resize(is_active_cell.size());
+    for (LocalIndex c = 0; c < is_free_cell.size(); ++c)
+      {
+        const VertexValues<dim> bound = mesh.values(c, is_bound);
+        is_free_cell[c] =
+          is_active_cell[c] && *std::max_element(bound.begin(), bound.end()) == 0;
+      }
+  }
+
+  template <int dim>
+  void
+  LiquidDomain<dim>::measure_nodes()
   {
     constexpr double light = 1e-3; // of the volume of its cells
     Vector           active = mesh.zeros(mesh.nodes);
@@ -262,33 +289,6 @@ namespace treacle
     is_active_node.resize(node_mass.size());
     for (LocalIndex node = 0; node < node_mass.size(); ++node)
       is_active_node[node] = active.local_element(node) > 0;
-    prescribe_nodes(state.time);
-  }
-
-  template <int dim>
-  void
-  LiquidDomain<dim>::prescribe_nodes(const double time)
-  {
-    constexpr unsigned char all = (1u << dim) - 1;
-    constrained.assign(mesh.node_position.size(), 0);
-    prescribed.assign(mesh.node_position.size(), Tensor<1, dim>());
-    std::string error;
-    for (LocalIndex node = 0; node < constrained.size(); ++node)
-      {
-        const Point<dim> &x = mesh.node_position[node];
-        for (unsigned int wall = 0; wall < Walls<dim>::n; ++wall)
-          if (mesh.node_sides[node] >> wall & 1)
-            constrained[node] |= scene.no_slip(wall) ? all : 1u << Walls<dim>::axis(wall);
-        const bool in_solid = solid_distance[node] <= 0;
-        if (!in_solid && !is_emitter_node[node])
-          continue;
-        constrained[node] = all;
-        keep_error(error, [&] {
-          prescribed[node] =
-            in_solid ? scene.solid_velocity(x, time) : scene.emitter_velocity(x, time);
-        });
-      }
-    throw_first(mesh.communicator(), error);
   }
 
   template <int dim>

@@ -87,7 +87,8 @@ namespace treacle
               is_connected_to_pressure =
                 is_connected_to_pressure || with_pressure.count(label.local_element(c)) > 0;
             }
-        result[f] = is_connected_to_pressure && !is_beside_pressure;
+        result[f] =
+          is_connected_to_pressure && !is_beside_pressure && !domain.is_free_face(f);
       }
     return result;
   }

@@ -51,6 +51,8 @@ namespace treacle
     std::vector<double>         dual_distance;    ///< phi(o), extended linearly (m)
     std::vector<unsigned char>  is_pressure_cell; ///< phi(o) < 0
     std::vector<unsigned char>  is_active_cell;   ///< wet or pressure cell
+    /// Active, where neither pressure nor wall holds a node: of threads thinner than a cell.
+    std::vector<unsigned char>  is_free_cell;
     std::vector<double>         viscosity;        ///< mean over the liquid part (Pa s)
     std::vector<double>         density;          ///< kg/m^dim
     CutCells<dim>               cut_cells;        ///< by solids, if their walls hold
@@ -87,6 +89,21 @@ namespace treacle
     {
       return cut_cells.parts(cell).size() == 0 ? mesh.cell_volume[cell] :
                                                  cut_cells.open_volume(cell);
+    }
+
+    /// Between free cells, or such a one and air.
+    bool
+    is_free_face(const LocalIndex face) const
+    {
+      const auto [i, j] = mesh.face_cells[face];
+      return is_free_cell[i] + is_free_cell[j] == is_active_cell[i] + is_active_cell[j];
+    }
+
+    /// Of the volume of the cell.
+    double
+    liquid_fraction(const LocalIndex cell) const
+    {
+      return liquid_volume[cell] / mesh.cell_volume[cell];
     }
 
     /// Liquid volume over all ranks (m^dim).
@@ -130,10 +147,10 @@ namespace treacle
     measure_faces(const State<dim> &state);
 
     void
-    measure_nodes(const State<dim> &state);
+    find_free_cells();
 
     void
-    prescribe_nodes(const double time);
+    measure_nodes();
   };
 } // namespace treacle
 

@@ -23,7 +23,7 @@ namespace treacle
   {
   public:
     /// On which faces the drag acts in the system for v: on all, or, solved for together with
-    /// the pressure, on those that it acts on, and on all of liquid without any pressure cell.
+    /// the pressure, on those that it acts on, on free ones, and on all of liquid without any pressure cell.
     enum class Faces
     {
       all,

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_fields_held_nodes_h
+#define treacle_fields_held_nodes_h
+
+#include <treacle/fields/state.h>
+#include <treacle/scene/scene.h>
+
+#include <vector>
+
+namespace treacle
+{
+  /// What prescribes the velocity of nodes, local ones.
+  template <int dim>
+  struct HeldNodes
+  {
+    /// Bit d is set where component d is prescribed (no slip, free slip, solids,
+    /// emitters).
+    std::vector<unsigned char>  constrained;
+    std::vector<Tensor<1, dim>> prescribed; ///< the values, m/s
+  };
+
+  /// A side of the box holds the nodes at which it touches liquid: at which one of their cells has a
+  /// liquid node on the same side. What has yet to come down on a floor does not feel it.
+  /// Solids, where their distance is not positive, and emitters hold all their nodes.
+  /// Collective. Throws a UserError on all ranks where a velocity makes no sense.
+  template <int dim>
+  HeldNodes<dim>
+  held_nodes(const Scene<dim>                 &scene,
+             const State<dim>                 &state,
+             const std::vector<double>        &solid_distance,
+             const std::vector<unsigned char> &is_emitter_node);
+} // namespace treacle
+
+#endif
