@@ -82,11 +82,10 @@ namespace treacle
     for (unsigned int i = 0; i <= dim; ++i)
       dual_distance[c] += phi[i] * (mesh.cell_gradients[c][i] * (mesh.cell_dual[c] - x[0]));
     liquid_volume[c]    = moments.volume;
-    is_pressure_cell[c] = is_open && dual_distance[c] < 0;
-    is_active_cell[c]   = is_pressure_cell[c] || moments.volume > 0;
+    is_active_cell[c]   = moments.volume > 0;
+    is_pressure_cell[c] = is_active_cell[c] && is_open && dual_distance[c] < 0;
     if (is_active_cell[c])
-      liquid_centre[c] = moments.volume > 0 ? Point<dim>(moments.first / moments.volume) :
-                                              mesh.cell_dual[c];
+      liquid_centre[c] = moments.first / moments.volume;
   }
 
   template <int dim>

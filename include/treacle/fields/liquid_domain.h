@@ -47,10 +47,10 @@ namespace treacle
 
     // -- cells --
     std::vector<double>         liquid_volume;    ///< of {phi<0} outside solids (m^dim)
-    std::vector<Point<dim>>     liquid_centre;    ///< its centroid, where it is not empty
+    std::vector<Point<dim>>     liquid_centre;    ///< its centroid, where there is some
     std::vector<double>         dual_distance;    ///< phi(o), extended linearly (m)
-    std::vector<unsigned char>  is_pressure_cell; ///< phi(o) < 0
-    std::vector<unsigned char>  is_active_cell;   ///< wet or pressure cell
+    std::vector<unsigned char>  is_pressure_cell; ///< wet, and phi(o) < 0
+    std::vector<unsigned char>  is_active_cell;   ///< wet: with liquid
     /// Active, where neither pressure nor wall holds a node: of threads thinner than a cell.
     std::vector<unsigned char>  is_free_cell;
     std::vector<double>         viscosity;        ///< mean over the liquid part (Pa s)
