@@ -13,6 +13,8 @@ namespace treacle
   {
     /// Part of the volume that a step may win or lose before it is repeated.
     constexpr double largest_drift = 0.01;
+    /// The same that it may push into walls, from where it has to be pushed out again.
+    constexpr double most_lost = 0.2;
     /// Where half a step leaves more of it, the mesh is too coarse, not the step.
     constexpr double worth_halving = 0.6;
     /// What moves by less is not repeated.
@@ -119,8 +121,10 @@ namespace treacle
     Vector           blow  = mesh.zeros(mesh.nodes);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
-        const Tensor<1, dim> v = state.v.value(node), w = expected.value(node);
-        if ((v - w).norm() > std::max(least, 0.5 * std::max(v.norm(), w.norm())))
+        const Tensor<1, dim> v = state.v.value(node), w = expected.value(node), d = v - w;
+        // of the whole velocity a quarter, of what it is in this direction half
+        if (d.norm() > std::max(least, 0.25 * std::max(v.norm(), w.norm())) &&
+            d.norm_square() > 0.5 * std::max(std::abs(v * d), std::abs(w * d)))
           {
             state.before->v->set(node, v);
             blow.local_element(node) = 1;
@@ -139,32 +143,39 @@ namespace treacle
                           double        &volume,
                           StepInfo<dim> &info) const
   {
-    const Liquid<dim>             old = liquid;
-    BackwardDifference            difference(dt, *old.state);
-    typename Transport<dim>::Info moved = transport(liquid, difference, volume);
-    const auto is_long = [&] {
+    const Liquid<dim>  old = liquid;
+    BackwardDifference difference(dt, *old.state);
+    const auto         is_long = [&] {
       return difference.dt * fastest_crossing(*old.domain, old.state->v) > half_a_leaf;
     };
-    while (std::abs(moved.drift) > largest_drift && is_long())
+    const auto transported = [&](Liquid<dim> &moving) {
+      return transport(
+        moving, difference, volume, is_long() ? most_lost * volume : std::numeric_limits<double>::max());
+    };
+    auto moved = transported(liquid);
+    while (!moved || (std::abs(moved->drift) > largest_drift && is_long()))
       {
-        Liquid<dim>                   half = old;
-        const BackwardDifference      half_difference(0.5 * difference.dt, *old.state);
-        typename Transport<dim>::Info half_moved = transport(half, half_difference, volume);
-        if (std::abs(half_moved.drift) > worth_halving * std::abs(moved.drift))
-          break;
-        liquid     = std::move(half);
-        difference = half_difference;
-        moved      = std::move(half_moved);
+        const BackwardDifference whole = difference;
+        difference                     = BackwardDifference(0.5 * whole.dt, *old.state);
+        Liquid<dim> half               = old;
+        auto        half_moved         = transported(half);
+        if (moved && half_moved && std::abs(half_moved->drift) > worth_halving * std::abs(moved->drift))
+          {
+            difference = whole;
+            break;
+          }
+        liquid = std::move(half);
+        moved  = std::move(half_moved);
         ++info.repetitions.volume;
       }
     find(liquid);
     info.dt      = difference.dt;
-    info.rebuilt = moved.rebuilt;
-    info.emitted = moved.emitted;
-    info.drift   = moved.drift;
-    volume += moved.emitted;
-    if (moved.missing > 0)
-      push_out(liquid, moved, volume);
+    info.rebuilt = moved->rebuilt;
+    info.emitted = moved->emitted;
+    info.drift   = moved->drift;
+    volume += moved->emitted;
+    if (moved->missing > 0)
+      push_out(liquid, *moved, volume);
     return difference;
   }
 
@@ -187,19 +198,19 @@ namespace treacle
   }
 
   template <int dim>
-  typename Transport<dim>::Info
+  std::optional<typename Transport<dim>::Info>
   TimeStepping<dim>::transport(Liquid<dim>              &liquid,
                                const BackwardDifference &difference,
-                               const double              volume) const
+                               const double              volume,
+                               const double              most_lost) const
   {
-    typename Transport<dim>::Info moved;
     if (switches.surface)
-      moved = movement.move_liquid(liquid, difference, volume, timing);
-    else if (switches.advection)
+      return movement.move_liquid(liquid, difference, volume, most_lost, timing);
+    if (switches.advection)
       movement.move_velocity(liquid, difference, timing);
     else
       timing.measured("advection", [&] { movement.stay(*liquid.state, difference); });
-    return moved;
+    return typename Transport<dim>::Info();
   }
 
   template <int dim>

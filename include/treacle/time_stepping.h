@@ -60,8 +60,12 @@ namespace treacle
     BackwardDifference
     move(Liquid<dim> &liquid, const double dt, double &volume, StepInfo<dim> &info) const;
 
-    typename Transport<dim>::Info
-    transport(Liquid<dim> &liquid, const BackwardDifference &difference, const double volume) const;
+    /// Nothing, and nothing moves, if more than @p most_lost (m^dim) would go into walls.
+    std::optional<typename Transport<dim>::Info>
+    transport(Liquid<dim>              &liquid,
+              const BackwardDifference &difference,
+              const double              volume,
+              const double              most_lost) const;
 
     /// What a step has pushed into walls and solids comes out again, by the least motion of the
     /// liquid: had it known of them in time, it would not have gone there.

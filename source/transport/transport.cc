@@ -22,27 +22,30 @@ namespace treacle
   } // namespace
 
   template <int dim>
-  typename Transport<dim>::Info
+  std::optional<typename Transport<dim>::Info>
   Transport<dim>::move_liquid(Liquid<dim>              &liquid,
                               const BackwardDifference &difference,
                               const double              volume,
+                              const double              most_lost,
                               Timing                   &timing) const
   {
     const State<dim>    &old   = *liquid.state;
     const double         reach = time_step.reach(old, *liquid.domain);
     const Advection<dim> advection(prm.advection, old, *liquid.domain, *liquid.surface, difference);
-    const auto           markers = timing.measured("markers", [&] {
-      return advection.move_markers();
-    });
-    const auto           ends    = timing.measured("markers", [&] {
-      return advection.move_surface(liquid.surface->facets.positions);
-    });
-    const auto           mesh    = timing.measured("mesh", [&] {
+    const auto           ends = timing.measured(
+      "markers", [&] { return advection.move_surface(liquid.surface->facets.positions); });
+    auto                 lost = lost_in_walls(
+      scene, *old.mesh, liquid.surface->facets, ends, old.time, old.time + difference.dt);
+    const double         all_lost = sum(lost, old.mesh->communicator());
+    if (all_lost > most_lost)
+      return {};
+    const auto markers = timing.measured("markers", [&] { return advection.move_markers(); });
+    const auto mesh    = timing.measured("mesh", [&] {
       return mesh_for_next_surface(
         old, *liquid.domain, *liquid.surface, advection, ends, markers, difference.dt);
     });
-    const bool           rebuilt = mesh != old.mesh;
-    auto                 next    = timing.measured("advection", [&] {
+    const bool rebuilt = mesh != old.mesh;
+    auto       next    = timing.measured("advection", [&] {
       return carry(old, advection, mesh, reach, Advection<dim>::SurfaceMotion::carried);
     });
 
@@ -51,20 +54,18 @@ namespace treacle
                                    liquid.mesh_data;
     next->markers        = to_owners(*mesh, markers);
     const double emitted = emit(*next, *data, difference.dt);
-    auto         lost    = lost_in_walls(
-      scene, *old.mesh, liquid.surface->facets, ends, old.time, next->time);
     tracking.follow_markers(*next, *data, difference.dt, time_step.reach_of_distance(reach, *mesh));
     const double wanted  = volume + emitted;
     // what earlier steps left to be corrected is not of this one
     const double won = liquid_volume(*data, next->phi, next->time) - emitted -
                        liquid.domain->total_volume();
-    double missing = std::min(sum(lost, mesh->communicator()), -won);
+    double missing = std::min(all_lost, -won);
     if (!tracking.keeps_volume() || missing < least_lost * wanted)
       missing = 0;
     auto surface = tracking.settle(*next, *data, wanted - missing);
     settle_material(*next, *data);
     liquid = {std::move(data), std::move(next), std::move(surface), nullptr};
-    return {rebuilt, emitted, std::move(lost), missing, (won + missing) / wanted};
+    return Info{rebuilt, emitted, std::move(lost), missing, (won + missing) / wanted};
   }
 
   namespace

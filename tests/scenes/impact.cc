@@ -4,7 +4,8 @@
 // A block falls on the floor, and on a solid, by more than a leaf a step: what a step pushes into
 // them comes out again in the same step, and the energy does not rise. Water that splashes in steps of six
 // leaves, under an emitter, keeps its volume. A drop falls into a pool, 1.2 leaves a step: what air it encloses does not swallow
-// liquid.
+// liquid. A stiff disc that drifts into a wall does not bounce off, and a ring that falls by
+// more than its thickness in a step does not go through a floor.
 
 #include "../run_scene.h"
 #include "../tests.h"
@@ -83,6 +84,44 @@ namespace
           << (std::abs(won) < 0.02 ? "less than 2 %" : "TOO MUCH") << std::endl;
   }
 
+  void
+  drift_into_wall(const MPI_Comm &comm)
+  {
+    const auto rows = run_scene<2>(
+      comm,
+      "set End time = 0.25\nset Frame interval = 0.0125\nset Maximum time step = 0.0125\n"
+      "subsection Domain\nset Wall condition = free slip\nend\n"
+      "subsection Mesh\nset Surface level = 4\nset Interior level = 4\nend\n"
+      "subsection Material\nset Density = 64\nset Viscosity = 4.7e6\nend\n"
+      "subsection Liquid 1\nset Centre = 0.4368, 0.6472\nset Radius = 0.2318\n"
+      "set Velocity = -1.255; -0.4746\nend\n");
+    double back = 0;
+    for (const Row &row : rows)
+      back = std::max(back,
+                      row.at("Linear momentum x (kg m/s)") /
+                        std::abs(rows[0].at("Linear momentum x (kg m/s)")));
+    out() << "2D, along a wall: comes back with "
+          << (back < 0.05 ? "less than 5 %" : "TOO MUCH, " + std::to_string(back)) << std::endl;
+  }
+
+  void
+  go_through(const MPI_Comm &comm)
+  {
+    const auto rows = run_scene<3>(
+      comm,
+      "set End time = 0.4\nset Frame interval = 0.05\nset Maximum time step = 0.05\nset Maximum CFL number = 3\n"
+      "subsection Domain\nset Wall condition = free slip\nend\n"
+      "subsection Mesh\nset Surface level = 4\nset Interior level = 4\nend\n"
+      "subsection Material\nset Viscosity = 500\nend\n"
+      "subsection Liquid 1\nset Shape = torus\nset Centre = 0.5, 0.5, 0.5\n"
+      "set Radius = 0.14\nset Minor radius = 0.055\nend\n");
+    double drift = 0;
+    for (const Row &row : rows)
+      drift = std::max(drift, std::abs(row.at("Volume drift")));
+    out() << "3D, a ring that would go through the floor: volume off by "
+          << (drift < 0.01 ? "less than 1 %" : "TOO MUCH, " + std::to_string(drift)) << std::endl;
+  }
+
   template <int dim>
   void
   check(const MPI_Comm &comm)
@@ -104,6 +143,8 @@ start(const int, char **)
     check<3>(comm);
     splash(comm);
     plunge(comm);
+    drift_into_wall(comm);
+    go_through(comm);
   });
 }
 

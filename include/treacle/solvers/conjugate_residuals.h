@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
-#include <vector>
+#include <list>
 
 namespace treacle
 {
@@ -46,8 +46,7 @@ namespace treacle
       l.sadd(-1, 1, b);
       measure(y, l);
       Direction              d{b, b, b};
-      std::vector<Direction> last;
-      last.reserve(n_last);
+      std::list<Direction> last;
       for (unsigned int k = 0;; ++k)
         {
           if (is_done(l, y))
@@ -68,16 +67,19 @@ namespace treacle
           x.add(length, d.step);
           l.add(-length, d.l);
           y.add(-length, d.y);
-          if (last.size() < n_last)
+          if (last.size() < (k < many ? n_last : n_last_of_many))
             last.push_back(d);
           else
-            last[k % n_last].swap(d);
+            {
+              last.splice(last.end(), last, last.begin());
+              last.back().swap(d);
+            }
         }
     }
 
   private:
-    /// Directions that a new one is made orthogonal to.
-    static constexpr unsigned int n_last = 10;
+    /// Directions that a new one is made orthogonal to, and where a solve has taken many iterations.
+    static constexpr unsigned int n_last = 10, n_last_of_many = 60, many = 30;
 
     /// A step of x, and what it does to the residual.
     struct Direction

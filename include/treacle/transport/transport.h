@@ -50,11 +50,13 @@ namespace treacle
       double drift = 0;
     };
 
-    /// The surface moves, and all with it; @p volume is what the liquid had (m^dim).
-    Info
+    /// The surface moves, and all with it; @p volume is what the liquid had (m^dim). Nothing moves if more
+    /// than @p most_lost (m^dim) would go into walls and solids.
+    std::optional<Info>
     move_liquid(Liquid<dim>              &liquid,
                 const BackwardDifference &difference,
                 const double              volume,
+                const double              most_lost,
                 Timing                   &timing) const;
 
     /// The surface and its material points move on by the velocity of @p pushed, and nothing else, until
