@@ -241,7 +241,7 @@ namespace treacle
         log->line("the step was repeated " + std::to_string(times) + " times with half its size, for " + reason);
     };
     repeated(info.repetitions.volume,
-             "the surface won or lost more than 1 % of the volume; left of it: " + digits(100 * info.drift) + " %");
+             "the surface won or lost more than 1 % of the volume, or went too far into walls; left of it: " + digits(100 * info.drift) + " %");
     repeated(info.repetitions.motion, "what viscosity had held began to move");
     repeated(info.repetitions.energy,
              "the liquid gained more energy than forces can have given it; left of it: " +

@@ -13,8 +13,8 @@ namespace treacle
   {
     /// Part of the volume that a step may win or lose before it is repeated.
     constexpr double largest_drift = 0.01;
-    /// The same that it may push into walls, from where it has to be pushed out again.
-    constexpr double most_lost = 0.2;
+    /// Part of the volume that a step may push into walls, before it is repeated.
+    constexpr double largest_loss = 0.2;
     /// Where half a step leaves more of it, the mesh is too coarse, not the step.
     constexpr double worth_halving = 0.6;
     /// What moves by less is not repeated.
@@ -145,12 +145,11 @@ namespace treacle
   {
     const Liquid<dim>  old = liquid;
     BackwardDifference difference(dt, *old.state);
-    const auto         is_long = [&] {
-      return difference.dt * fastest_crossing(*old.domain, old.state->v) > half_a_leaf;
-    };
+    const double       crossing = fastest_crossing(*old.domain, old.state->v);
+    const auto         is_long  = [&] { return difference.dt * crossing > half_a_leaf; };
     const auto transported = [&](Liquid<dim> &moving) {
       return transport(
-        moving, difference, volume, is_long() ? most_lost * volume : std::numeric_limits<double>::max());
+        moving, difference, volume, is_long() ? largest_loss * volume : std::numeric_limits<double>::max());
     };
     auto moved = transported(liquid);
     while (!moved || (std::abs(moved->drift) > largest_drift && is_long()))

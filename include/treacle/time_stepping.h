@@ -7,6 +7,8 @@
 #include <treacle/dynamics/step_info.h>
 #include <treacle/transport/transport.h>
 
+#include <optional>
+
 namespace treacle
 {
   /// One time step: the liquid moves, then what acts on it changes its velocity.

@@ -106,7 +106,7 @@ namespace treacle
     const auto mean = [&](const Vector &field) {
       const VertexValues<dim> values = mesh.values(c, field);
       const double            value  = interpolate(values, lambda);
-      // the dual centre, which stands in for it, may lie outside of its cell
+      // the centroid of next to nothing may lie outside of its cell
       const auto [lower, upper] = std::minmax_element(values.begin(), values.end());
       return std::min(std::max(value, *lower), *upper);
     };

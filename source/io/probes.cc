@@ -54,8 +54,7 @@ namespace treacle
       for (unsigned int k = mesh.node_cell_start[node];
            k < mesh.node_cell_start[node + 1];
            ++k)
-        if (const LocalIndex c = mesh.node_cells[k];
-            domain.is_pressure_cell[c] && domain.liquid_volume[c] > 0)
+        if (const LocalIndex c = mesh.node_cells[k]; domain.is_pressure_cell[c])
           {
             centres.push_back(mesh.cell_dual[c]);
             values.push_back(state.pressure.local_element(c));

@@ -143,10 +143,12 @@ namespace treacle
   {
     const Vector q_beyond = extended(q);
     for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
-      if (domain.is_liquid_face(f))
-        u.local_element(f) +=
-          (is_unknown(f) ? force(f, q) : domain.theta[f] * force(f, q_beyond)) /
-          domain.face_mass[f];
+      if (!domain.is_liquid_face(f))
+        continue;
+      else if (is_unknown(f))
+        u.local_element(f) += force(f, q) / domain.face_mass[f];
+      else if (!domain.is_free_face(f)) // that has the mass of its liquid, and nothing takes the force back
+        u.local_element(f) += domain.theta[f] * force(f, q_beyond) / domain.face_mass[f];
     u.update_ghost_values();
   }
 

@@ -24,8 +24,7 @@ namespace treacle
     /// From the surface (leaves): air that goes on further is not looked at.
     constexpr double deep = 2;
 
-    /// The label of such air, and of what is at walls: to let a body touch a floor at once, by what is still between them,
-    /// squirts more out at its edges than there is energy for.
+    /// The label of such air, and of what is at solids, which cut its volume and its surface.
     constexpr double open = 0;
 
     /// A part of the air that is connected.
@@ -132,7 +131,7 @@ namespace treacle
         const double            farther = deep * largest_surface_size(mesh);
         if (*lowest > farther || !has_air(mesh.cell_nodes[c]))
           return -1;
-        return *highest > farther || is_at_wall(c) ? open : 1. + mesh.cells->local_to_global(c);
+        return *highest > farther || is_at_solid(c) ? open : 1. + mesh.cells->local_to_global(c);
       }
 
       /// Of a cell or a face.
@@ -181,16 +180,13 @@ namespace treacle
         return result;
       }
 
-      /// Is a node in a solid, or air on a side of the box?
+      /// Is a node in one?
       bool
-      is_at_wall(const LocalIndex c) const
+      is_at_solid(const LocalIndex c) const
       {
         const auto &nodes = mesh.cell_nodes[c];
-        const auto &faces = mesh.cell_faces[c];
-        return std::any_of(nodes.begin(), nodes.end(), [&](const LocalIndex node) { return from_solid[node] <= 0; }) ||
-               std::any_of(faces.begin(), faces.end(), [&](const LocalIndex f) {
-                 return mesh.face_cells[f][1] == invalid && has_air(mesh.face_nodes[f]);
-               });
+        return std::any_of(
+          nodes.begin(), nodes.end(), [&](const LocalIndex node) { return from_solid[node] <= 0; });
       }
 
       /// In the middle of a facet.

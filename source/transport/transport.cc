@@ -34,8 +34,9 @@ namespace treacle
     const Advection<dim> advection(prm.advection, old, *liquid.domain, *liquid.surface, difference);
     const auto           ends = timing.measured(
       "markers", [&] { return advection.move_surface(liquid.surface->facets.positions); });
-    auto                 lost = lost_in_walls(
-      scene, *old.mesh, liquid.surface->facets, ends, old.time, old.time + difference.dt);
+    auto                 lost = timing.measured("surface", [&] {
+      return lost_in_walls(scene, *old.mesh, liquid.surface->facets, ends, old.time, old.time + difference.dt);
+    });
     const double         all_lost = sum(lost, old.mesh->communicator());
     if (all_lost > most_lost)
       return {};
@@ -44,14 +45,13 @@ namespace treacle
       return mesh_for_next_surface(
         old, *liquid.domain, *liquid.surface, advection, ends, markers, difference.dt);
     });
-    const bool rebuilt = mesh != old.mesh;
     auto       next    = timing.measured("advection", [&] {
       return carry(old, advection, mesh, reach, Advection<dim>::SurfaceMotion::carried);
     });
 
     const auto section = timing.section("surface");
-    auto       data    = rebuilt ? std::make_shared<const MeshData<dim>>(*mesh, scene) :
-                                   liquid.mesh_data;
+    const bool rebuilt = mesh != old.mesh;
+    auto       data    = rebuilt ? std::make_shared<const MeshData<dim>>(*mesh, scene) : liquid.mesh_data;
     next->markers        = to_owners(*mesh, markers);
     const double emitted = emit(*next, *data, difference.dt);
     tracking.follow_markers(*next, *data, difference.dt, time_step.reach_of_distance(reach, *mesh));

@@ -11,7 +11,7 @@ namespace treacle
   /// How often a step was taken again with half its size, by reason.
   struct Repetitions
   {
-    unsigned int volume = 0; ///< the surface won or lost too much of it
+    unsigned int volume = 0; ///< the surface won or lost too much of it, or went too far into walls
     unsigned int motion = 0; ///< the new velocity takes the surface elsewhere
     unsigned int energy = 0; ///< the liquid had more than forces can have given it
 

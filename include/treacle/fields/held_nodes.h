@@ -21,8 +21,8 @@ namespace treacle
     std::vector<Tensor<1, dim>> prescribed; ///< the values, m/s
   };
 
-  /// A side of the box holds the nodes at which it touches liquid: at which one of their cells has a
-  /// liquid node on the same side. What has yet to come down on a floor does not feel it.
+  /// A wall (Walls: a side of the box, or what a mesh from a file calls so) holds the nodes at which it touches
+  /// liquid: at which one of their cells has a liquid node on the same wall. What has yet to come down on a floor does not feel it.
   /// Solids, where their distance is not positive, and emitters hold all their nodes.
   /// Collective. Throws a UserError on all ranks where a velocity makes no sense.
   template <int dim>

@@ -59,7 +59,7 @@ namespace treacle
 
     // -- faces --
     std::vector<double> open_fraction; ///< alpha: part of the area outside solids and emitters
-    std::vector<double> theta;         ///< liquid part of the dual edge
+    std::vector<double> theta;         ///< liquid part of the dual edge; of free faces that of the volume
     std::vector<double> face_mass;     ///< M_f = rho alpha A theta L (kg); 0: no unknown
     /// Normal velocity where there is no unknown: of walls, solids, emitters.
     std::vector<double> solid_velocity;
@@ -91,7 +91,7 @@ namespace treacle
                                                  cut_cells.open_volume(cell);
     }
 
-    /// Between free cells, or such a one and air.
+    /// Of a liquid face that is owned: between free cells, or such a one and air.
     bool
     is_free_face(const LocalIndex face) const
     {

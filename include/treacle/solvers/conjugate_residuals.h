@@ -6,8 +6,8 @@
 
 #include <cmath>
 #include <functional>
-#include <optional>
 #include <list>
+#include <optional>
 
 namespace treacle
 {

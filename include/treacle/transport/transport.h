@@ -11,6 +11,8 @@
 #include <treacle/transport/lost_volume.h>
 #include <treacle/transport/time_step.h>
 
+#include <optional>
+
 namespace treacle
 {
   /// Moves the liquid on by a step: surface forward, fields back along their paths, and the
