@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/mesh/ask.h>
+#include <treacle/base/exchange.h>
 #include <treacle/mesh/band.h>
 
 #include <map>
@@ -101,52 +101,55 @@ namespace treacle
     for (auto &[outward, asking] : by_direction)
       {
         sort_unique(asking);
+        at_points.insert(at_points.end(), asking.begin(), asking.end());
         for (const LatticePoint<dim> &step : steps<dim>(widths, outward))
           for (const VertexKey cube : asking)
             if (const auto other = cube_at(cube, step, octree.extent()))
               cubes.push_back(*other);
       }
-    sort_unique(cubes);
     std::string error;
-    keep_error(error, [&] {
-      cubes.erase(std::remove_if(cubes.begin(),
-                                 cubes.end(),
-                                 [&](const VertexKey cube) {
-                                   return !is_needed(centre_of_cube(octree, cube, size));
-                                 }),
-                  cubes.end());
-    });
+    for (std::vector<VertexKey> *list : {&cubes, &at_points})
+      {
+        sort_unique(*list);
+        keep_error(error, [&] {
+          list->erase(std::remove_if(list->begin(),
+                                     list->end(),
+                                     [&](const VertexKey cube) {
+                                       return !is_needed(centre_of_cube(octree, cube, size));
+                                     }),
+                      list->end());
+        });
+      }
     throw_first(comm, error);
   }
 
   template <int dim>
-  bool
-  Band<dim>::is_in_leaves_of(const Octree<dim> &octree) const
+  GlobalIndex
+  Band<dim>::n_in_larger_leaves(const Octree<dim>            &octree,
+                                const std::vector<VertexKey> &list) const
   {
-    const auto is_fine = [&](const LocalIndex leaf) {
-      return leaf != invalid && octree.leaves()[leaf].size <= size;
-    };
-    // a cube that is not one of this rank's leaves is asked of its owner
-    std::vector<Point<dim>> elsewhere;
-    bool                    all = true;
-    for (const VertexKey cube : cubes)
-      {
-        const Point<dim> x    = centre_of_cube(octree, cube, size);
-        const LocalIndex leaf = octree.leaf_containing(x);
-        if (leaf == invalid)
-          elsewhere.push_back(x);
-        else
-          all = all && is_fine(leaf);
-      }
-    for (const double answer : ask(comm,
-                                   octree.owner_ranks(elsewhere),
-                                   elsewhere,
-                                   1,
-                                   [&](const Point<dim> &x, double *answer) {
-                                     *answer = is_fine(octree.leaf_containing(x));
-                                   }))
-      all = all && answer == 1;
-    return Utilities::MPI::min(all ? 1 : 0, comm) == 1;
+    // each is told to the owner of its leaf
+    std::vector<Point<dim>> centres;
+    for (const VertexKey cube : list)
+      centres.push_back(centre_of_cube(octree, cube, size));
+    const std::vector<unsigned int> owner = octree.owner_ranks(centres);
+    PerRank<VertexKey>              to_rank(Utilities::MPI::n_mpi_processes(comm));
+    for (unsigned int i = 0; i < list.size(); ++i)
+      to_rank[owner[i]].push_back(list[i]);
+    std::unordered_set<VertexKey> found;
+    for (const auto &received : send_and_receive(comm, to_rank))
+      for (const VertexKey cube : received)
+        if (const LocalIndex leaf = octree.leaf_containing(centre_of_cube(octree, cube, size));
+            leaf == invalid || octree.leaves()[leaf].size > size)
+          found.insert(cube);
+    return Utilities::MPI::sum(GlobalIndex(found.size()), comm);
+  }
+
+  template <int dim>
+  typename Band<dim>::Missing
+  Band<dim>::missing_in(const Octree<dim> &octree) const
+  {
+    return {n_in_larger_leaves(octree, at_points), n_in_larger_leaves(octree, cubes)};
   }
 
   namespace

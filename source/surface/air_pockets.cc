@@ -246,9 +246,10 @@ namespace treacle
     phi.update_ghost_values();
     const SurfaceDistance<dim> kept(mesh, extract_surface(mesh, phi), reach),
       gone(mesh, difference(extract_surface(mesh, state.phi), phi), reach);
-    const auto was_nearer = [&](const Point<dim> &x) {
+    const double leaf       = largest_surface_size(mesh); // no marker is further from its surface
+    const auto   was_nearer = [&](const Point<dim> &x) {
       const double to_gone = gone.nearest(x).distance;
-      return to_gone < reach && to_gone < kept.nearest(x, to_gone).distance;
+      return to_gone < reach && !kept.is_any_within(x, to_gone);
     };
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       if (double &value = phi.local_element(node); value < 0 && was_nearer(mesh.node_position[node]))
@@ -259,7 +260,8 @@ namespace treacle
     state.markers.erase(std::remove_if(state.markers.begin(),
                                        state.markers.end(),
                                        [&](const Marker<dim> &marker) {
-                                         return was_nearer(marker.position);
+                                         return gone.is_any_within(marker.position, leaf) &&
+                                                was_nearer(marker.position);
                                        }),
                         state.markers.end());
   }

@@ -108,6 +108,19 @@ namespace treacle
   }
 
   template <int dim>
+  bool
+  SurfaceDistance<dim>::is_any_within(const Point<dim> &x, const double distance) const
+  {
+    bool found = false;
+    tree.search(x, distance, [&](const unsigned int facet) {
+      ++Work::here().facets_tried;
+      found = found || nearest_point(facets[facet], x).distance(x) <= distance;
+      return found ? 0 : distance; // the search is over
+    });
+    return found;
+  }
+
+  template <int dim>
   double
   SurfaceDistance<dim>::distance_beyond_box(const Point<dim> &x,
                                             const Point<dim> &nearest,

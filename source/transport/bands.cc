@@ -99,11 +99,17 @@ namespace treacle
 
   template <int dim>
   bool
-  Bands<dim>::are_in_leaves() const
+  Bands<dim>::are_in_leaves(const double most_missing) const
   {
-    return std::all_of(bands.begin(), bands.end(), [&](const Band<dim> &band) {
-      return band.is_in_leaves_of(octree);
-    });
+    GlobalIndex missing = 0;
+    for (const Band<dim> &band : bands)
+      {
+        const typename Band<dim>::Missing here = band.missing_in(octree);
+        missing += here.in_all;
+        if (here.at_points > 0 || missing > most_missing)
+          return false;
+      }
+    return true;
   }
 
   template <int dim>

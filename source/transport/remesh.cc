@@ -15,6 +15,9 @@ namespace treacle
     /// By how much leaves may be larger than the surface asks for before a new mesh is made, lest
     /// meshes flicker.
     constexpr double too_large = 1.25;
+    /// Of all leaves, those that may be too large within a leaf of the surface before a new mesh is made,
+    /// as where it went on as nobody expected. Where the surface is, they never are.
+    constexpr double most_missing = 0.002;
     /// How often a coarser mesh is looked for, and the part of the leaves that it may have.
     constexpr unsigned int steps_between_looks = 8;
     constexpr double       worth_while         = 0.7;
@@ -96,17 +99,16 @@ namespace treacle
       const std::vector<AskedSize<dim>> &inside; ///< what the velocity asks for
       const Vector                   &size;  ///< that it asks for (m), at nodes
 
-      /// With leaves that may be larger by a factor. Markers that left the surface behind are in the
-      /// coarsest band.
-      BandPoints<dim>
-      points(const double factor) const
+      /// Are leaves as fine as it asks for, or nearly so, but for a few beside it? Collective.
+      bool
+      is_in_leaves_of(const Octree<dim> &octree, const Scene<dim> &scene, const double time) const
       {
-        BandPoints<dim> result = points_at(levels(factor));
-        append_inside(result, factor);
-        return result;
+        BandPoints<dim> points = points_at(levels(too_large));
+        append_inside(points, too_large);
+        return Bands<dim>(octree, scene, time, points, true).are_in_leaves(most_missing * n_leaves(octree));
       }
 
-      /// And where it goes on to.
+      /// What to lay a mesh around, with leaves that may be larger by a factor: it, and where it goes on to.
       BandPoints<dim>
       points_ahead(const double factor) const
       {
@@ -155,6 +157,7 @@ namespace treacle
         return vertex_levels(mesh.octree().parameters(), surface, size, factor);
       }
 
+      /// Markers that left the surface behind are in the coarsest band.
       BandPoints<dim>
       points_at(const std::vector<unsigned int> &level) const
       {
@@ -222,7 +225,7 @@ namespace treacle
     const NextSurface<dim> moved{mesh, surface.facets, next, markers, jumps, inside, size},
       held{mesh, surface.facets, next, markers, jumps, inside, is_bounded ? present : size};
     const bool is_fine_enough =
-      Bands<dim>(octree, scene, time, held.points(too_large), true).are_in_leaves() &&
+      held.is_in_leaves_of(octree, scene, time) &&
       !(sizing.asks_in_liquid(time) && growth.is_any_too_coarse(owned_leaves(octree)));
     if (is_fine_enough &&
         (state.step == 0 || state.step % steps_between_looks != 0 || !(is_bounded || prm.velocity_error > 0 || is_too_fine(mesh, size))))

@@ -40,9 +40,15 @@ namespace treacle
          const BandWidths                              &widths,
          const std::function<bool(const Point<dim> &)> &is_needed);
 
-    /// Is every cube a leaf, or made of smaller ones? Collective.
-    bool
-    is_in_leaves_of(const Octree<dim> &octree) const;
+    /// Cubes that lie in larger leaves.
+    struct Missing
+    {
+      GlobalIndex at_points, in_all;
+    };
+
+    /// Each counted once, whatever the partition. Collective.
+    Missing
+    missing_in(const Octree<dim> &octree) const;
 
     /// Which of these leaves, all of one level, hold smaller cubes of any rank? Collective.
     std::vector<bool>
@@ -55,10 +61,14 @@ namespace treacle
             const LatticePoint<dim> &step,
             const LatticePoint<dim> &extent) const;
 
+    /// Those @p list that lie in larger leaves. Collective.
+    GlobalIndex
+    n_in_larger_leaves(const Octree<dim> &octree, const std::vector<VertexKey> &list) const;
+
     MPI_Comm               comm;
     int                    root; ///< edge of a root cube, in lattice units
     int                    size; ///< of a cube
-    std::vector<VertexKey> cubes; ///< lowest corners, sorted
+    std::vector<VertexKey> cubes, at_points; ///< lowest corners, sorted
   };
 } // namespace treacle
 

@@ -34,6 +34,10 @@ namespace treacle
     nearest(const Point<dim> &x,
             const double      expected = std::numeric_limits<double>::infinity()) const;
 
+    /// Is any facet within a distance (m), at most the reach?
+    bool
+    is_any_within(const Point<dim> &x, const double distance) const;
+
     const double reach;
 
   private:

@@ -77,9 +77,10 @@ namespace treacle
           const BandPoints<dim> &points,
           const bool             narrow);
 
-    /// Are the octree's leaves as fine as they ask for? Collective.
+    /// Are the octree's leaves as fine as they ask for, but for so many cubes that hold none of the
+    /// points? Collective.
     bool
-    are_in_leaves() const;
+    are_in_leaves(const double most_missing = 0) const;
 
     /// Which of these leaves, all of one level, are to be finer? Collective.
     std::vector<bool>
