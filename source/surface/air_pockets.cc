@@ -15,8 +15,9 @@ namespace treacle
   namespace
   {
     /// Of its volume, that may fill in a step of what is thin: whose volume over the area of its surface is less than half a
-    /// leaf, as that of a sheet of a leaf, a disc of two, a ball of three across. What is larger is seen to shrink.
-    constexpr double most_filled = 0.25, thin = 0.5;
+    /// leaf, as that of a sheet of a leaf, a disc of two, a ball of three across. What is larger is seen to shrink. What is gained
+    /// of what closes now, and lost of what closes a step later, are as much in the mean.
+    constexpr double most_filled = 0.5, thin = 0.5;
 
     /// Part of the volume that moves in or out by roundoff, as in a body that moves as a rigid one.
     constexpr double noise = 0.01;
@@ -44,14 +45,26 @@ namespace treacle
         size = size == 0 ? other.size : std::min(size, other.size);
       }
 
+      bool
+      is_thin() const
+      {
+        return volume < thin * size * area;
+      }
+
+      /// Part of it in a step.
+      double
+      filled(const double dt) const
+      {
+        return dt * inflow / volume;
+      }
+
       /// What is smaller than a leaf may have met the liquid in this step, and its velocity does not know, only that it does
       /// not open.
       bool
       is_filled_within(const double dt, const unsigned int dim) const
       {
-        const double filled = dt * inflow / volume;
-        return volume < thin * size * area &&
-               (filled > most_filled || (filled > -noise && volume < std::pow(size, dim)));
+        return is_thin() &&
+               (filled(dt) > most_filled || (filled(dt) > -noise && volume < std::pow(size, dim)));
       }
     };
 
@@ -121,6 +134,27 @@ namespace treacle
         return is_beside;
       }
 
+      /// Is it an owned node in a gap between liquid, open elsewhere, that a step fills? All nodes around it are near the
+      /// surface then, and the gap is what is in their cells.
+      bool
+      is_in_gap_filled_within(const LocalIndex node, const double dt) const
+      {
+        const double near    = thin * surface_size_at_node(mesh, node);
+        const auto   is_near = [&](const LocalIndex i) { return state.phi.local_element(i) < near; };
+        if (state.phi.local_element(node) < 0 || !is_near(node) || mesh.node_sides[node] != 0)
+          return false;
+        AirPart gap;
+        for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+          {
+            const LocalIndex c     = mesh.node_cells[k];
+            const auto      &nodes = mesh.cell_nodes[c];
+            if (is_at_solid(c) || !std::all_of(nodes.begin(), nodes.end(), is_near))
+              return false;
+            gap.add(in_cell(c));
+          }
+        return gap.is_thin() && gap.filled(dt) > most_filled;
+      }
+
     private:
       /// Of its own where the cell has air, but none in the middle of the air.
       double
@@ -172,11 +206,13 @@ namespace treacle
         for (double &value : air)
           value = -value;
         AirPart result{negative_fraction<dim>(air) * mesh.cell_volume[c], 0, 0, surface_size_of_cell(mesh, c)};
+        Tensor<1, dim> outward;
         for_each_facet(mesh, state.phi, c, [&](const std::array<Point<dim>, dim> &x) {
-          const Tensor<1, dim> area = area_vector<dim>(x);
-          result.inflow += area * velocity(c, x);
-          result.area += area.norm();
+          outward += area_vector<dim>(x);
+          result.area += area_vector<dim>(x).norm();
         });
+        if (result.area > 0)
+          result.inflow = outward * velocity_of_liquid(c);
         return result;
       }
 
@@ -189,18 +225,19 @@ namespace treacle
           nodes.begin(), nodes.end(), [&](const LocalIndex node) { return from_solid[node] <= 0; });
       }
 
-      /// In the middle of a facet.
+      /// Of its liquid: that of the nodes of the air beside it is of one side of a gap, or in between.
       Tensor<1, dim>
-      velocity(const LocalIndex c, const std::array<Point<dim>, dim> &x) const
+      velocity_of_liquid(const LocalIndex c) const
       {
-        Point<dim> middle;
-        for (const Point<dim> &y : x)
-          middle += y / dim;
-        const VertexValues<dim> lambda = barycentric_coordinates<dim>(mesh.cell_vertices(c), middle);
-        Tensor<1, dim>          v;
-        for (unsigned int d = 0; d < dim; ++d)
-          v[d] = interpolate(mesh.values(c, state.v.component[d]), lambda);
-        return v;
+        Tensor<1, dim> v;
+        unsigned int   n = 0;
+        for (const LocalIndex node : mesh.cell_nodes[c])
+          if (state.phi.local_element(node) < 0)
+            {
+              v += state.v.value(node);
+              ++n;
+            }
+        return v / n;
       }
 
       const State<dim>          &state;
@@ -236,13 +273,17 @@ namespace treacle
     const Mesh<dim>        &mesh = data.mesh;
     const AirParts<dim>     air(state, data);
     const std::set<double> closed = air.filled_within(dt);
-    if (closed.empty())
-      return;
-    Vector phi = state.phi;
+    Vector                 phi  = state.phi;
+    bool                   any  = false;
     phi.zero_out_ghost_values();
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      if (air.is_node_of(node, closed))
-        phi.local_element(node) = -reach;
+      if (air.is_node_of(node, closed) || air.is_in_gap_filled_within(node, dt))
+        {
+          phi.local_element(node) = -reach;
+          any                     = true;
+        }
+    if (Utilities::MPI::max(any ? 1 : 0, mesh.communicator()) == 0)
+      return;
     phi.update_ghost_values();
     const SurfaceDistance<dim> kept(mesh, extract_surface(mesh, phi), reach),
       gone(mesh, difference(extract_surface(mesh, state.phi), phi), reach);

@@ -214,7 +214,8 @@ namespace treacle
     const NodeVector<dim> &v = *old.before->v;
     return {std::move(now),
             carried(fields_of(v), velocity, dt + old.before->dt, reach),
-            combined(0.5, old.v, 0.5, v)};
+            combined(0.5, old.v, 0.5, v),
+            {old, domain}};
   }
 
   template <int dim>
@@ -233,10 +234,12 @@ namespace treacle
   Advection<dim>::change_along(Paths &&paths, const Past &past) const
   {
     const Tracer<dim> tracer(*old.mesh);
+    Guesses           cells   = paths.cells;
     const auto        further = tracer.trace(paths.from, past.between, -old.before->dt, paths.cells);
     const auto        before  = tracer.evaluate(further, past.before.fields, paths.cells);
     std::transform(
       paths.values.begin(), paths.values.end(), before.begin(), paths.values.begin(), std::minus<>());
+    past.fall.set_change(paths.values, paths.from, cells, old.before->dt);
     return std::move(paths.values);
   }
 

@@ -9,6 +9,7 @@
 #include <treacle/mesh/tracer.h>
 #include <treacle/surface/marker_motion.h>
 #include <treacle/surface/surface_geometry.h>
+#include <treacle/transport/free_fall.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -113,6 +114,7 @@ namespace treacle
     {
       Carried         now, before;
       NodeVector<dim> between;
+      FreeFall<dim>   fall;
     };
 
     /// Of a state that has a velocity before.
