@@ -63,7 +63,8 @@ namespace treacle
                             const State<dim>           &old,
                             const LiquidDomain<dim>    &domain,
                             const SurfaceGeometry<dim> &surface,
-                            const BackwardDifference   &difference)
+                            const BackwardDifference   &difference,
+                            const bool                  keeps_volume)
     : prm(parameters)
     , old(old)
     , domain(domain)
@@ -71,8 +72,12 @@ namespace treacle
     , difference(difference)
     , dt(difference.dt)
     , velocity(velocity_after(0.5, old, difference))
-    , surface_velocity(treacle::surface_velocity(
-        old, domain, velocity, dt * maximum_speed(old, domain) + 2 * old.mesh->finest_size()))
+    , surface_velocity(
+        treacle::surface_velocity(old,
+                                  domain,
+                                  velocity,
+                                  dt * maximum_speed(old, domain) + 2 * old.mesh->finest_size(),
+                                  keeps_volume ? &surface.level_set.gradients() : nullptr))
   {}
 
   template <int dim>
@@ -96,14 +101,6 @@ namespace treacle
   Advection<dim>::velocity_at_end(const Mesh<dim> &mesh) const
   {
     return at_nodes_of(mesh, velocity_after(1, old, difference));
-  }
-
-  template <int dim>
-  std::vector<Point<dim>>
-  Advection<dim>::move_surface(const std::vector<Point<dim>> &x) const
-  {
-    Guesses none;
-    return Tracer<dim>(*old.mesh).path_ends(x, surface_velocity, dt, none);
   }
 
   template <int dim>

@@ -3,7 +3,9 @@
 
 #include <treacle/fields/gradients.h>
 #include <treacle/fields/layers.h>
+#include <treacle/transport/surface_divergence.h>
 #include <treacle/transport/surface_velocity.h>
+#include <treacle/transport/velocity_in_time.h>
 
 namespace treacle
 {
@@ -126,24 +128,30 @@ namespace treacle
   surface_velocity(const State<dim>        &state,
                    const LiquidDomain<dim> &domain,
                    const NodeVector<dim>   &v,
-                   const double             distance)
+                   const double             distance,
+                   const NodeVector<dim>   *gradient)
   {
-    const Mesh<dim>      &mesh   = domain.mesh;
-    NodeVector<dim>       result = v;
-    const NodeVector<dim> added  = linear_part(state, domain, v, distance);
-    Vector                is_free(mesh.nodes);
+    const Mesh<dim> &mesh   = domain.mesh;
+    NodeVector<dim>  result = combined(1, v, 1, linear_part(state, domain, v, distance));
+    Vector           is_free(mesh.nodes);
+    if (gradient != nullptr)
+      remove_divergence_at_surface(state.phi, *gradient, domain, result);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      {
-        result.set(node, v.value(node) + added.value(node));
-        is_free.local_element(node) =
-          domain.constrained[node] == 0 || domain.is_emitter_node[node];
-      }
+      is_free.local_element(node) = domain.constrained[node] == 0 || domain.is_emitter_node[node];
     continue_velocity(domain.data, is_free, domain.constrained, 3, result);
     return result;
   }
 
   template NodeVector<2>
-  surface_velocity(const State<2> &, const LiquidDomain<2> &, const NodeVector<2> &, const double);
+  surface_velocity(const State<2> &,
+                   const LiquidDomain<2> &,
+                   const NodeVector<2> &,
+                   const double,
+                   const NodeVector<2> *);
   template NodeVector<3>
-  surface_velocity(const State<3> &, const LiquidDomain<3> &, const NodeVector<3> &, const double);
+  surface_velocity(const State<3> &,
+                   const LiquidDomain<3> &,
+                   const NodeVector<3> &,
+                   const double,
+                   const NodeVector<3> *);
 } // namespace treacle

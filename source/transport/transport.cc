@@ -115,7 +115,8 @@ namespace treacle
                                    *pushed.state,
                                    *pushed.domain,
                                    *pushed.surface,
-                                   BackwardDifference(dt, *pushed.state));
+                                   BackwardDifference(dt, *pushed.state),
+                                   false);
     const std::vector<double> phi = advection.level_set(
       {state.mesh->node_position.begin(),
        state.mesh->node_position.begin() + state.mesh->n_owned_nodes()});

@@ -37,12 +37,14 @@ namespace treacle
       add_parameters(ParameterHandler &prm);
     };
 
-    /// By the step of a backward difference. All must outlive this object.
+    /// By the step of a backward difference, with a velocity that keeps the liquid's volume or not. All must
+    /// outlive this object.
     Advection(const Parameters           &parameters,
               const State<dim>           &old,
               const LiquidDomain<dim>    &domain,
               const SurfaceGeometry<dim> &surface,
-              const BackwardDifference   &difference);
+              const BackwardDifference   &difference,
+              const bool                  keeps_volume = true);
 
     /// Does the surface go with the liquid, or stay?
     enum class SurfaceMotion
@@ -66,7 +68,11 @@ namespace treacle
 
     /// Where points of the surface are after dt, or would be if there were no walls.
     std::vector<Point<dim>>
-    move_surface(const std::vector<Point<dim>> &x) const;
+    move_surface(const std::vector<Point<dim>> &x) const
+    {
+      Guesses none;
+      return Tracer<dim>(*old.mesh).path_ends(x, surface_velocity, dt, none);
+    }
 
     /// The old velocity, continued in time to the end of the step, at the nodes of a mesh.
     NodeVector<dim>

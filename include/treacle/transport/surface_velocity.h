@@ -12,17 +12,20 @@ namespace treacle
   /// - in the air up to @p distance (m) from the surface that of the liquid, continued linearly. The fit to
   ///   the faces knows nothing beyond the last of them and continues it as a constant: a wave
   ///   would be late as if its surface lay a third of a leaf deeper (case C4).
+  /// - beside the surface without divergence (surface_divergence.h), given the @p gradient of phi at nodes; null for what pushes
+  ///   liquid out of walls, which has some.
   /// - at walls and in solids the velocity of the nodes beside them. With the wall's own a film of
   ///   air would remain under all that falls on it, for a P1 velocity vanishes there.
   ///
   /// Velocity itself is not advected with this one: each step would continue what the step
-  /// before continued, and flows without viscosity gain energy.
+  /// before continued, and flows without viscosity gain energy. Collective.
   template <int dim>
   NodeVector<dim>
   surface_velocity(const State<dim>        &state,
                    const LiquidDomain<dim> &domain,
                    const NodeVector<dim>   &v,
-                   const double             distance);
+                   const double             distance,
+                   const NodeVector<dim>   *gradient);
 } // namespace treacle
 
 #endif
