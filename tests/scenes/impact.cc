@@ -85,10 +85,10 @@ namespace
           << (std::abs(won) < 0.02 ? "less than 2 %" : "TOO MUCH") << std::endl;
   }
 
-  /// What is won or lost before correction from a time on, of what is poured meanwhile into a pool.
+  /// What is won or lost before correction from a time on, of what is poured meanwhile into a pool (%).
   template <int dim>
   void
-  pour(const MPI_Comm &comm, const double from, const std::string &text)
+  pour(const MPI_Comm &comm, const double from, const unsigned int percent, const std::string &text)
   {
     const auto        rows  = run_scene<dim>(comm,
                                      text + "subsection Material\nset Density = 1000\nset Viscosity = 10\nend\n",
@@ -104,7 +104,8 @@ namespace
           poured += rows[k].at("Emitted volume" + power) - rows[k - 1].at("Emitted volume" + power);
         }
     out() << dim << "D, poured into a pool: won or lost before correction, of what is poured "
-          << (std::abs(won) < 0.15 * poured ? "less than 15 %" : "TOO MUCH, " + std::to_string(won / poured))
+          << (std::abs(won) < 0.01 * percent * poured ? "less than " + std::to_string(percent) + " %" :
+                                                        "TOO MUCH, " + std::to_string(won / poured))
           << std::endl;
   }
 
@@ -114,11 +115,28 @@ namespace
   {
     pour<2>(comm,
             0.8,
+            15,
             "set End time = 1.4\nset Frame interval = 0.05\n"
             "subsection Mesh\nset Surface level = 6\nset Interior level = 5\nend\n"
             "subsection Liquid 1\nset Shape = half space\nset Centre = 0, 0.25\nset Normal = 0, 1\nend\n"
             "subsection Emitter 1\nset Shape = box\nset Lower corner = 0.45, 0.9\nset Upper corner = 0.55, 1\n"
             "set Velocity = 0; -1\nend\n");
+  }
+
+  /// Nodes move the pool's surface about a stream of three leaves as sharply curved as a leaf: a seventh of what is poured would be lost.
+  void
+  pour_slowly(const MPI_Comm &comm)
+  {
+    pour<3>(comm,
+            0.15,
+            10,
+            "set End time = 0.5\nset Frame interval = 0.05\n"
+            "subsection Domain\nset Upper corner = 0.5, 0.5, 0.5\nend\n"
+            "subsection Mesh\nset Surface level = 4\nset Interior level = 3\nend\n"
+            "subsection Gravity\nset Acceleration = 0; 0; -1\nend\n"
+            "subsection Liquid 1\nset Shape = half space\nset Centre = 0, 0, 0.2\nset Normal = 0, 0, 1\nend\n"
+            "subsection Emitter 1\nset Shape = box\nset Lower corner = 0.2, 0.2, 0.4\nset Upper corner = 0.3, 0.3, 0.5\n"
+            "set Velocity = 0; 0; -1.4\nend\n");
   }
 
   void
@@ -181,7 +199,10 @@ start(const int, char **)
     splash(comm);
     plunge(comm);
     if (Utilities::MPI::n_mpi_processes(comm) == 1) // a hundred steps
-      pour_stretched(comm);
+      {
+        pour_stretched(comm);
+        pour_slowly(comm);
+      }
     drift_into_wall(comm);
     go_through(comm);
   });

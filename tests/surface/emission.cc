@@ -2,7 +2,7 @@
 // Copyright (C) the Treacle authors
 
 // What emitters pour out: against the ceiling and in the air, with a stop; the volume
-// is area times velocity times time. One that starts late brings its own volume with it.
+// is area times velocity times time, in small steps too. One that starts late brings its own volume with it.
 // And liquids of two viscosities that travel: the jump between them smears, with first
 // order in the leaf.
 // Argument: level.
@@ -27,11 +27,11 @@ mesh_section(const unsigned int level, const unsigned int interior_level = 3)
 
 template <int dim>
 void
-pour(const MPI_Comm &comm, const bool at_ceiling, const unsigned int level)
+pour(const MPI_Comm &comm, const bool at_ceiling, const unsigned int level, const double step)
 {
   const std::string xy = dim == 2 ? "0.52" : "0.52, 0.47", up = at_ceiling ? "0.9" : "0.7";
   const std::string text =
-    "set End time = 0.1\nset Frame interval = 10\nset Maximum time step = 0.02\n" +
+    "set End time = 0.1\nset Frame interval = 10\nset Maximum time step = " + std::to_string(step) + "\n" +
     mesh_section(level) +
     "subsection Material\nset Viscosity = 100\nend\nsubsection Emitter 1\nset Shape = box\n"
     "set Lower corner = " +
@@ -152,9 +152,11 @@ start(const int argc, char **argv)
   on_1_2_3_ranks([&](const MPI_Comm &comm) {
     for (const bool at_ceiling : {true, false})
       {
-        pour<2>(comm, at_ceiling, level + 1);
-        pour<3>(comm, at_ceiling, level);
+        pour<2>(comm, at_ceiling, level + 1, 0.02);
+        pour<3>(comm, at_ceiling, level, 0.02);
       }
+    pour<2>(comm, true, level + 1, 0.005); // a sixth of a leaf
+    pour<3>(comm, true, level, 0.005);
     pour_late(comm);
     carry<2>(comm, level + 1);
     carry<3>(comm, level);
