@@ -197,10 +197,7 @@ namespace treacle
             for (unsigned int i = 0; i <= dim; ++i)
               sum[mesh.cell_nodes[cell.index][i]] += free;
           }
-        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-          {
-            diagonal.local_element(node) = sum[node];
-          }
+        std::copy_n(sum.begin(), mesh.n_owned_nodes(), diagonal.begin());
       }
 
       /// d = B v.
