@@ -71,13 +71,6 @@ namespace treacle
         , dt(dt)
       {}
 
-      /// Further away from emitters (m) what flowed in is no other than what was there.
-      double
-      reach() const
-      {
-        return 2 * h;
-      }
-
       struct Phi
       {
         double after;
@@ -91,7 +84,7 @@ namespace treacle
       phi(const Point<dim> &x, const double old) const
       {
         const double distance = scene.emitter_distance(x, time);
-        if (distance >= reach())
+        if (distance >= 2 * h) // what flowed in is no other than what was there
           return {std::min(old, distance), distance, distance};
         const Point<dim> from  = x - dt * scene.emitter_velocity(x, time);
         const double     depth = depth_beyond(from, scene, time);

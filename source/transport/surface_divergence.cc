@@ -98,14 +98,16 @@ namespace treacle
       remove_from(NodeVector<dim> &v) const
       {
         Vector d(mesh.nodes), q(mesh.nodes);
-        divergence(v, d);
+        weigh(v, q, d);
         const double norm = d.l2_norm();
         if (!(norm > 0))
           return;
         IterationNumberControl control(most_iterations, tolerance * norm);
         SolverCG<Vector>       solver(control);
         solver.solve(Multiplies<Vector>{[this](Vector &r, const Vector &q) {
-                       multiply(r, q);
+                       q.update_ghost_values();
+                       weigh(flow(q), q, r);
+                       q.zero_out_ghost_values();
                      }},
                      q,
                      d,
@@ -200,20 +202,24 @@ namespace treacle
         std::copy_n(sum.begin(), mesh.n_owned_nodes(), diagonal.begin());
       }
 
-      /// d = B v.
+      /// r = B v + (0.1 L + 1e-4 D) q, D the diagonal.
       void
-      divergence(const NodeVector<dim> &v, Vector &d) const
+      weigh(const NodeVector<dim> &v, const Vector &q, Vector &r) const
       {
         std::vector<double> sum(mesh.node_position.size());
         for (const Cell &cell : cells)
           {
-            const double part =
-              cell.volume * trace(velocity_gradient(mesh, cell.index, v));
-            for (const LocalIndex node : mesh.cell_nodes[cell.index])
-              sum[node] += part;
+            const double         part = trace(velocity_gradient(mesh, cell.index, v));
+            const Tensor<1, dim> g = smoothing * (dim + 1) * cell_gradient(mesh, cell.index, q);
+            for (unsigned int i = 0; i <= dim; ++i)
+              sum[mesh.cell_nodes[cell.index][i]] +=
+                cell.volume * (part + g * mesh.cell_gradients[cell.index][i]);
           }
         for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-          d.local_element(node) = has_weight(node) ? sum[node] : 0.;
+          r.local_element(node) =
+            has_weight(node) ?
+              sum[node] + least * diagonal.local_element(node) * q.local_element(node) :
+              0.;
       }
 
       /// M^-1 B^T q, where no component is prescribed.
@@ -237,27 +243,6 @@ namespace treacle
               is_free(node, d) ? sum[node][d] / mass.local_element(node) : 0.;
         v.update_ghost_values();
         return v;
-      }
-
-      /// r = (B M^-1 B^T + 0.1 L + 1e-4 D) q, D the diagonal.
-      void
-      multiply(Vector &r, const Vector &q) const
-      {
-        q.update_ghost_values();
-        divergence(flow(q), r);
-        std::vector<double> sum(mesh.node_position.size());
-        for (const Cell &cell : cells)
-          {
-            const Tensor<1, dim> g =
-              smoothing * (dim + 1) * cell.volume * cell_gradient(mesh, cell.index, q);
-            for (unsigned int i = 0; i <= dim; ++i)
-              sum[mesh.cell_nodes[cell.index][i]] +=
-                g * mesh.cell_gradients[cell.index][i];
-          }
-        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-          if (has_weight(node))
-            r.local_element(node) += sum[node] + least * diagonal.local_element(node) * q.local_element(node);
-        q.zero_out_ghost_values();
       }
 
       const LiquidDomain<dim> &domain;

@@ -155,7 +155,7 @@ start(const int argc, char **argv)
         pour<2>(comm, at_ceiling, level + 1, 0.02);
         pour<3>(comm, at_ceiling, level, 0.02);
       }
-    pour<2>(comm, true, level + 1, 0.005); // a sixth of a leaf
+    pour<2>(comm, true, level + 1, 0.005); // a sixth of a leaf, a twelfth in 3D
     pour<3>(comm, true, level, 0.005);
     pour_late(comm);
     carry<2>(comm, level + 1);
