@@ -98,7 +98,9 @@ namespace treacle
       remove_from(NodeVector<dim> &v) const
       {
         Vector d(mesh.nodes), q(mesh.nodes);
+        q.update_ghost_values();
         weigh(v, q, d);
+        q.zero_out_ghost_values();
         const double norm = d.l2_norm();
         if (!(norm > 0))
           return;
