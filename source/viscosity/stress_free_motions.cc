@@ -10,17 +10,25 @@
 namespace treacle
 {
   template <int dim>
-  bool
-  NodeSystem<dim>::acts_across(const Stiffness &stiffness) const
+  double
+  NodeSystem<dim>::spread_of_momentum(const Stiffness &stiffness) const
   {
     double furthest = 0; // squared (m^2)
     for (LocalIndex c = 0; c < stiffness.strain.size(); ++c)
       if (const double mass = domain.density[c] * domain.open_volume(c); mass > 0)
         furthest = std::max(furthest, stiffness.strain[c] / mass);
+    return std::sqrt(largest(domain.mesh.communicator(), furthest));
+  }
+
+  template <int dim>
+  bool
+  NodeSystem<dim>::turns_stiffly(const Stiffness &stiffness) const
+  {
     double edge = std::numeric_limits<double>::max();
     for (unsigned int d = 0; d < dim; ++d)
       edge = std::min(edge, domain.mesh.box().side_length(d));
-    return largest(domain.mesh.communicator(), furthest) > std::pow(0.25 * edge, 2);
+    const double spread = spread_of_momentum(stiffness);
+    return spread > 0.25 * edge || (spread > 2 * domain.mesh.finest_size() && has_several_pieces());
   }
 
   template <int dim>
@@ -45,11 +53,7 @@ namespace treacle
   {
     NearNullSpace space;
     space.n_components   = dim;
-    // a rank may have no cells
-    const bool has_strain = Utilities::MPI::max(stiffness.strain.empty() ? 0 : 1,
-                                                domain.mesh.communicator()) > 0;
-    const bool is_rigid   = has_strain && (acts_across(stiffness) || has_several_pieces());
-    space.n_vectors       = is_rigid ? (dim == 2 ? 3 : 6) : dim;
+    space.n_vectors       = turns_stiffly(stiffness) ? (dim == 2 ? 3 : 6) : dim;
     const std::size_t n  = dim * owned_nodes.size();
     const Point<dim>  origin = domain.mesh.middle();
     space.vectors.assign(space.n_vectors * n, 0);

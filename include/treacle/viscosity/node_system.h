@@ -102,19 +102,23 @@ namespace treacle
     }
 
     /// Motions without stress, zero at prescribed components: the rigid ones, or translations
-    /// alone where there is no strain term, or where the liquid is one piece and it does not act
-    /// across it: then rotations cost more than they save. Collective.
+    /// alone where no body turns stiffly: then rotations cost more than they save. Collective.
     NearNullSpace
     stress_free_motions(const Stiffness &stiffness) const;
 
     const LiquidDomain<dim> &domain;
 
   private:
-    /// Is the way that momentum spreads as long as a quarter of the box's shortest edge?
-    bool
-    acts_across(const Stiffness &stiffness) const;
+    /// How far viscosity spreads momentum in a step, sqrt(nu dt) at its largest (m). Collective.
+    double
+    spread_of_momentum(const Stiffness &stiffness) const;
 
-    /// Crumbs are small beside that way: each of them turns as a rigid body.
+    /// Are there bodies that viscosity holds so stiff that a hierarchy has to know that they turn: as wide as a quarter of
+    /// the box, or several, of which some may be crumbs? Collective.
+    bool
+    turns_stiffly(const Stiffness &stiffness) const;
+
+    /// Collective.
     bool
     has_several_pieces() const;
 
