@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/exchange.h>
 #include <treacle/fields/numbering.h>
 
 namespace treacle
@@ -14,8 +15,7 @@ namespace treacle
         owned.push_back(i);
     const MPI_Comm    comm    = partitioner->get_mpi_communicator();
     const GlobalIndex n_owned = owned.size();
-    GlobalIndex       first   = 0;
-    MPI_Exscan(&n_owned, &first, 1, DEAL_II_DOF_INDEX_MPI_TYPE, MPI_SUM, comm);
+    const GlobalIndex first   = sum_of_lower_ranks(comm, n_owned);
 
     // 0 says inactive
     Vector ids(partitioner);

@@ -59,7 +59,7 @@ namespace treacle
           share_sizes[number - share.first] = size;
         }
     start = starts(share_sizes);
-    MPI_Exscan(&start.back(), &n_before, 1, MPI_UINT64_T, MPI_SUM, comm);
+    n_before = sum_of_lower_ranks(comm, start.back());
   }
 
   template <int dim>

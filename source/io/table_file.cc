@@ -54,9 +54,8 @@ namespace treacle
                       const std::string    &path,
                       const std::vector<T> &part)
   {
-    std::uint64_t       offset = 0;
     const std::uint64_t n      = part.size();
-    MPI_Exscan(&n, &offset, 1, MPI_UINT64_T, MPI_SUM, comm);
+    const std::uint64_t offset = sum_of_lower_ranks(comm, n);
     with_file(comm, path, MPI_MODE_CREATE | MPI_MODE_WRONLY, [&](MPI_File &file) {
       return Utilities::MPI::LargeCount::File_write_at_all_c(
         file, offset * sizeof(T), part.data(), n, mpi_type<T>(), MPI_STATUS_IGNORE);

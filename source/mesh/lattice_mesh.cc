@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/exchange.h>
 #include <treacle/geometry/simplex.h>
 #include <treacle/mesh/covering_boxes.h>
 #include <treacle/mesh/ghost_cells.h>
@@ -106,8 +107,7 @@ namespace treacle
     Lattice<dim>      lattice = make_lattice(*tree);
     const MPI_Comm   &comm    = tree->communicator();
     const GlobalIndex n_owned = lattice.cells.size();
-    GlobalIndex       first   = 0;
-    MPI_Exscan(&n_owned, &first, 1, DEAL_II_DOF_INDEX_MPI_TYPE, MPI_SUM, comm);
+    const GlobalIndex first   = sum_of_lower_ranks(comm, n_owned);
     const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
 
     std::unordered_map<VertexKey, double> weight;

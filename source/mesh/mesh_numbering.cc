@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/mesh/face_normal_element.h>
+#include <treacle/base/exchange.h>
 #include <treacle/mesh/mesh_numbering.h>
-#include <treacle/mesh/rank_triangulation.h>
 
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/grid/reference_cell.h>
+#include <deal.II/grid/tria.h>
 
 namespace treacle
 {
   namespace
   {
+    /// What each cell has of one kind of things on this rank, its vertices or its faces.
+    template <int dim>
+    using ThingsOfCells = std::vector<std::array<unsigned int, dim + 1>>;
+
     /// The vertex of a simplex that is opposite deal.II's face f.
     template <int dim>
     unsigned int
@@ -27,68 +28,206 @@ namespace treacle
     }
 
     template <int dim>
-    std::shared_ptr<const Utilities::MPI::Partitioner>
-    partitioner_of_cells(const MPI_Comm &comm, const MeshCells<dim> &mesh)
+    ThingsOfCells<dim>
+    vertices_of_cells(const MeshCells<dim> &mesh)
     {
-      const unsigned int rank    = Utilities::MPI::this_mpi_process(comm);
-      const auto         is_mine = [&](const auto &cell) { return cell.owner == rank; };
-      const GlobalIndex  n_owned = std::count_if(mesh.cells.begin(), mesh.cells.end(), is_mine);
-      GlobalIndex        first   = 0;
-      MPI_Exscan(&n_owned, &first, 1, DEAL_II_DOF_INDEX_MPI_TYPE, MPI_SUM, comm);
-      const GlobalIndex n_cells = Utilities::MPI::sum(n_owned, comm);
-      IndexSet          owned(n_cells), ghosts(n_cells);
-      owned.add_range(first, first + n_owned);
-      std::vector<GlobalIndex> ids;
+      ThingsOfCells<dim> result;
+      result.reserve(mesh.cells.size());
       for (const auto &cell : mesh.cells)
-        if (!is_mine(cell))
-          ids.push_back(cell.id);
-      ghosts.add_indices(ids.begin(), ids.end());
+        result.push_back(cell.vertex);
+      return result;
+    }
+
+    /// In their order in deal.II's triangulation, which finds them and is gone then.
+    template <int dim>
+    ThingsOfCells<dim>
+    faces_of_cells(const MeshCells<dim> &mesh)
+    {
+      ThingsOfCells<dim> result(mesh.cells.size());
+      if (mesh.cells.empty()) // deal.II knows no triangulation without a cell
+        return result;
+      std::vector<Point<dim>> vertices;
+      vertices.reserve(mesh.vertices.size());
+      for (const auto &vertex : mesh.vertices)
+        vertices.push_back(vertex.position);
+      std::vector<CellData<dim>> cells(mesh.cells.size());
+      for (unsigned int i = 0; i < cells.size(); ++i)
+        cells[i].vertices.assign(mesh.cells[i].vertex.begin(), mesh.cells[i].vertex.end());
+      Triangulation<dim> triangulation;
+      triangulation.create_triangulation(vertices, cells, SubCellData());
+      for (const auto &cell : triangulation.active_cell_iterators())
+        for (unsigned int f = 0; f <= dim; ++f)
+          result[cell->index()][f] = cell->face_index(f);
+      return result;
+    }
+
+    /// In the order of the vertices opposite.
+    template <int dim>
+    void
+    sort_faces(std::vector<std::array<LocalIndex, dim + 1>> &cell_faces)
+    {
+      std::array<unsigned int, dim + 1> opposite;
+      for (unsigned int f = 0; f <= dim; ++f)
+        opposite[f] = opposite_vertex<dim>(f);
+      for (auto &faces : cell_faces)
+        {
+          const auto as_found = faces;
+          for (unsigned int f = 0; f <= dim; ++f)
+            faces[opposite[f]] = as_found[f];
+        }
+    }
+
+    /// This rank owns a range of all numbers, and holds some.
+    std::shared_ptr<const Utilities::MPI::Partitioner>
+    partitioner(const MPI_Comm                 &comm,
+                const GlobalIndex               first,
+                const GlobalIndex               n_owned,
+                const std::vector<GlobalIndex> &held)
+    {
+      const GlobalIndex        n = Utilities::MPI::sum(n_owned, comm), end = first + n_owned;
+      std::vector<GlobalIndex> of_others;
+      std::copy_if(held.begin(), held.end(), std::back_inserter(of_others), [&](const GlobalIndex k) {
+        return k < first || k >= end;
+      });
+      std::sort(of_others.begin(), of_others.end());
+      IndexSet owned(n), ghosts(n);
+      owned.add_range(first, end);
+      ghosts.add_indices(of_others.begin(), of_others.end());
       return std::make_shared<const Utilities::MPI::Partitioner>(owned, ghosts, comm);
     }
 
     template <int dim>
     std::shared_ptr<const Utilities::MPI::Partitioner>
-    partitioner_of(const MPI_Comm &comm, const DoFHandler<dim> &dofs)
+    partitioner_of_cells(const MPI_Comm &comm, const MeshCells<dim> &mesh)
     {
-      IndexSet relevant;
-      DoFTools::extract_locally_relevant_dofs(dofs, relevant);
-      return std::make_shared<const Utilities::MPI::Partitioner>(
-        dofs.locally_owned_dofs(), relevant, comm);
+      const unsigned int rank    = Utilities::MPI::this_mpi_process(comm);
+      GlobalIndex              n_owned = 0;
+      std::vector<GlobalIndex> ids;
+      for (const auto &cell : mesh.cells)
+        {
+          n_owned += cell.owner == rank;
+          ids.push_back(cell.id);
+        }
+      return partitioner(comm, sum_of_lower_ranks(comm, n_owned), n_owned, ids);
     }
+
+    /// Numbers of vertices or faces over all ranks: of each the lowest rank with a cell that has it, in the order
+    /// of that rank's cells.
+    template <int dim>
+    class ThingNumbers
+    {
+    public:
+      /// Collective.
+      ThingNumbers(const MPI_Comm           &comm,
+                   const MeshCells<dim>     &mesh,
+                   const MeshNumbering<dim> &cells,
+                   const ThingsOfCells<dim> &things)
+        : rank(Utilities::MPI::this_mpi_process(comm))
+        , mesh(mesh)
+        , cells(cells)
+        , things(things)
+      {
+        unsigned int n = 0;
+        for (const auto &of_cell : things)
+          n = std::max(n, 1 + *std::max_element(of_cell.begin(), of_cell.end()));
+        number.assign(n, numbers::invalid_dof_index);
+        const GlobalIndex n_owned = number_own(comm);
+        if (Utilities::MPI::n_mpi_processes(comm) > 1)
+          for (unsigned int round = 0; round < 2; ++round) // from their ranks, then beyond ghosts
+            exchange();
+        held = partitioner(comm, first, n_owned, number);
+      }
+
+      /// The numbers on this rank of each cell's.
+      std::vector<std::array<LocalIndex, dim + 1>>
+      local() const
+      {
+        std::vector<LocalIndex> of_thing;
+        of_thing.reserve(number.size());
+        for (const GlobalIndex k : number)
+          of_thing.push_back(held->global_to_local(k));
+        auto result = things;
+        for (auto &of_cell : result)
+          for (LocalIndex &k : of_cell)
+            k = of_thing[k];
+        return result;
+      }
+
+      std::shared_ptr<const Utilities::MPI::Partitioner> held;
+
+    private:
+      bool
+      is_mine(const unsigned int cell) const
+      {
+        return mesh.cells[cell].owner == rank;
+      }
+
+      GlobalIndex
+      number_own(const MPI_Comm &comm)
+      {
+        std::vector<unsigned int> owner(number.size(), numbers::invalid_unsigned_int);
+        for (unsigned int i = 0; i < things.size(); ++i)
+          for (const unsigned int k : things[i])
+            owner[k] = std::min(owner[k], mesh.cells[i].owner);
+        GlobalIndex n = 0;
+        for (unsigned int i = 0; i < things.size(); ++i)
+          if (is_mine(i))
+            for (const unsigned int k : things[i])
+              if (owner[k] == rank && number[k] == numbers::invalid_dof_index)
+                number[k] = n++;
+        first = sum_of_lower_ranks(comm, n);
+        for (GlobalIndex &k : number)
+          if (k != numbers::invalid_dof_index)
+            k += first;
+        return n;
+      }
+
+      /// Ghosts learn of their ranks what these know.
+      void
+      exchange()
+      {
+        constexpr double    unknown = -1;
+        std::vector<Vector> of_corner(dim + 1, Vector(cells.cells));
+        for (unsigned int i = 0; i < things.size(); ++i)
+          if (is_mine(i))
+            for (unsigned int k = 0; k <= dim; ++k)
+              of_corner[k].local_element(cells.cell[i]) =
+                number[things[i][k]] == numbers::invalid_dof_index ?
+                  unknown :
+                  static_cast<double>(number[things[i][k]]);
+        for (Vector &numbers_there : of_corner)
+          numbers_there.update_ghost_values();
+        for (unsigned int i = 0; i < things.size(); ++i)
+          if (!is_mine(i))
+            for (unsigned int k = 0; k <= dim; ++k)
+              if (const double there = of_corner[k].local_element(cells.cell[i]); there != unknown)
+                number[things[i][k]] = there;
+      }
+
+      const unsigned int        rank;
+      const MeshCells<dim>     &mesh;
+      const MeshNumbering<dim> &cells;
+      const ThingsOfCells<dim> &things;
+      std::vector<GlobalIndex>  number; ///< of each thing on this rank
+      GlobalIndex               first;  ///< of those of this rank
+    };
   } // namespace
 
   template <int dim>
   MeshNumbering<dim>::MeshNumbering(const MPI_Comm &comm, const MeshCells<dim> &mesh)
     : cells(partitioner_of_cells(comm, mesh))
-    , cell(mesh.cells.size())
-    , cell_nodes(mesh.cells.size())
-    , cell_faces(mesh.cells.size())
   {
-    const RankTriangulation<dim> triangulation(comm, mesh);
-    DoFHandler<dim>              node_dofs(triangulation), face_dofs(triangulation);
-    node_dofs.distribute_dofs(FE_SimplexP<dim>(1));
-    face_dofs.distribute_dofs(FaceNormalElement<dim>());
-    nodes = partitioner_of(comm, node_dofs);
-    faces = partitioner_of(comm, face_dofs);
-
-    std::array<unsigned int, dim + 1> opposite;
-    for (unsigned int f = 0; f <= dim; ++f)
-      opposite[f] = opposite_vertex<dim>(f);
-    std::vector<GlobalIndex> of_nodes(dim + 1), of_faces(dim + 1);
-    for (const auto &accessor : node_dofs.active_cell_iterators())
-      if (!accessor->is_artificial())
-        {
-          const unsigned int i = accessor->index();
-          cell[i]              = cells->global_to_local(mesh.cells[i].id);
-          accessor->get_dof_indices(of_nodes);
-          typename DoFHandler<dim>::active_cell_iterator(&triangulation, 0, i, &face_dofs)
-            ->get_dof_indices(of_faces);
-          for (unsigned int k = 0; k <= dim; ++k)
-            {
-              cell_nodes[i][k]           = nodes->global_to_local(of_nodes[k]);
-              cell_faces[i][opposite[k]] = faces->global_to_local(of_faces[k]);
-            }
-        }
+    cell.reserve(mesh.cells.size());
+    for (const auto &c : mesh.cells)
+      cell.push_back(cells->global_to_local(c.id));
+    const auto number = [&](const ThingsOfCells<dim> &things, Partitioner &held) {
+      const ThingNumbers<dim> numbers(comm, mesh, *this, things);
+      held = numbers.held;
+      return numbers.local();
+    };
+    cell_nodes = number(vertices_of_cells(mesh), nodes);
+    cell_faces = number(faces_of_cells(mesh), faces);
+    sort_faces<dim>(cell_faces);
   }
 
   template struct MeshNumbering<2>;

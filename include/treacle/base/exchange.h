@@ -19,6 +19,15 @@ namespace treacle
   template <typename T>
   using PerRank = std::vector<std::vector<T>>;
 
+  /// Of what each rank has. Collective.
+  inline std::uint64_t
+  sum_of_lower_ranks(const MPI_Comm &comm, const std::uint64_t here)
+  {
+    std::uint64_t before = 0;
+    MPI_Exscan(&here, &before, 1, MPI_UINT64_T, MPI_SUM, comm);
+    return before;
+  }
+
   /// Send to_rank[r] to rank r and return what came from each rank. Collective.
   /// T must be trivially copyable. MPI counts with 32 bits: a message has @p most entries.
   template <typename T>

@@ -12,9 +12,8 @@
 
 namespace treacle
 {
-  /// Numbers of nodes, faces and cells over all ranks, and what each rank holds of them.
-  /// deal.II's triangulation and degrees of freedom make them, and are gone when they
-  /// are made.
+  /// Numbers of nodes, faces and cells over all ranks, and what each rank holds of them. The faces are those of a deal.II
+  /// triangulation of each rank's cells, which is gone when they are numbered.
   template <int dim>
   struct MeshNumbering
   {
