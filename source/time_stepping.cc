@@ -13,6 +13,9 @@ namespace treacle
   {
     /// Part of the volume that a step may win or lose before it is repeated.
     constexpr double largest_drift = 0.01;
+    /// Part of what the surface moves over that a step may lose before it is repeated: bodies that run into each other over
+    /// more than a leaf or two in a step fill the air between them with neither's velocity.
+    constexpr double most_swallowed = 0.125;
     /// Part of the volume that a step may push into walls, before it is repeated.
     constexpr double largest_loss = 0.2;
     /// Where half a step leaves more of it, the mesh is too coarse, not the step.
@@ -152,7 +155,10 @@ namespace treacle
         moving, difference, volume, is_long() ? largest_loss * volume : std::numeric_limits<double>::max());
     };
     auto moved = transported(liquid);
-    while (!moved || (std::abs(moved->drift) > largest_drift && is_long()))
+    const auto is_bad = [](const typename Transport<dim>::Info &info) {
+      return std::abs(info.drift) > largest_drift || info.swallowed > most_swallowed;
+    };
+    while (!moved || (is_bad(*moved) && is_long()))
       {
         const BackwardDifference whole = difference;
         difference                     = BackwardDifference(0.5 * whole.dt, *old.state);

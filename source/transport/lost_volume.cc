@@ -3,6 +3,7 @@
 
 #include <treacle/base/exchange.h>
 #include <treacle/mesh/surface_size.h>
+#include <treacle/mesh/tracer.h>
 #include <treacle/transport/lost_volume.h>
 
 namespace treacle
@@ -97,6 +98,39 @@ namespace treacle
             lost.push_back({after[i] + depth[i].value * depth[i].outward,
                             depth[i].outward,
                             -depth[i].value * (area * depth[i].outward) / dim});
+      }
+    return lost;
+  }
+
+  template <int dim>
+  std::vector<LostVolume<dim>>
+  lost_in_liquid(const Scene<dim>              &scene,
+                 const State<dim>              &state,
+                 const Mesh<dim>               &mesh,
+                 const Surface<dim>            &surface,
+                 const std::vector<Point<dim>> &after)
+  {
+    const std::vector<double> phi = Tracer<dim>(*state.mesh).evaluate(after, {{&state.phi}});
+    std::vector<bool>         is_buried(after.size());
+    std::string               error;
+    keep_error(error, [&] {
+      for (unsigned int i = 0; i < after.size(); ++i)
+        {
+          const auto  &vertex = surface.vertices[i];
+          const double edge   = mesh.node_position[vertex.a].distance(mesh.node_position[vertex.b]);
+          is_buried[i] =
+            phi[i] < -0.5 * edge && depth_in_walls(scene, mesh, after[i], state.time).value <= 0;
+        }
+    });
+    throw_first(mesh.communicator(), error);
+    std::vector<LostVolume<dim>> lost;
+    for (unsigned int k = 0; k < surface.facets.size(); ++k)
+      {
+        const Tensor<1, dim> area = area_vector<dim>(surface.facet_points(k, after));
+        for (const unsigned int i : surface.facets[k])
+          if (const double swept = area * (after[i] - surface.positions[i]) / dim;
+              is_buried[i] && swept > 0)
+            lost.push_back({after[i], -area / area.norm(), swept});
       }
     return lost;
   }
@@ -201,6 +235,11 @@ namespace treacle
                                                       const std::vector<Point<dim>> &,        \
                                                       const double,                           \
                                                       const double);                          \
+  template std::vector<LostVolume<dim>> lost_in_liquid(const Scene<dim> &,                    \
+                                                       const State<dim> &,                    \
+                                                       const Mesh<dim> &,                     \
+                                                       const Surface<dim> &,                  \
+                                                       const std::vector<Point<dim>> &);      \
   template double sum(const std::vector<LostVolume<dim>> &, const MPI_Comm &);                \
   template Vector lost_by_cells(const LiquidDomain<dim> &, const std::vector<LostVolume<dim>> &);
   INSTANTIATE(2)

@@ -19,6 +19,22 @@ namespace treacle
     /// Part of the volume that is pushed out of walls in a step, and not left to the even
     /// correction: that lifts the whole body.
     constexpr double least_lost = 1e-4;
+
+    /// Volume that facets move over (m^dim). Collective.
+    template <int dim>
+    double
+    swept_outwards(const State<dim> &state, const Surface<dim> &surface, const std::vector<Point<dim>> &after)
+    {
+      double volume = 0;
+      for (unsigned int k = 0; k < surface.facets.size(); ++k)
+        {
+          Tensor<1, dim> way;
+          for (const unsigned int i : surface.facets[k])
+            way += (after[i] - surface.positions[i]) / dim;
+          volume += std::max(0., area_vector<dim>(surface.facet_points(k)) * way);
+        }
+      return Utilities::MPI::sum(volume, state.mesh->communicator());
+    }
   } // namespace
 
   template <int dim>
@@ -59,13 +75,20 @@ namespace treacle
     // what earlier steps left to be corrected is not of this one
     const double won = liquid_volume(*data, next->phi, next->time) - emitted -
                        liquid.domain->total_volume();
-    double missing = std::min(all_lost, -won);
-    if (!tracking.keeps_volume() || missing < least_lost * wanted)
-      missing = 0;
+    double missing = 0, swallowed = 0;
+    if (tracking.keeps_volume() && -won >= least_lost * wanted)
+      {
+        const auto in_liquid = lost_in_liquid(scene, *next, *old.mesh, liquid.surface->facets, ends);
+        lost.insert(lost.end(), in_liquid.begin(), in_liquid.end());
+        missing = std::min(sum(lost, mesh->communicator()), -won);
+        if (missing < least_lost * wanted)
+          missing = 0;
+        swallowed = (-won - missing) / swept_outwards(old, liquid.surface->facets, ends);
+      }
     auto surface = tracking.settle(*next, *data, wanted - missing);
     settle_material(*next, *data);
     liquid = {std::move(data), std::move(next), std::move(surface), nullptr};
-    return Info{rebuilt, emitted, std::move(lost), missing, (won + missing) / wanted};
+    return Info{rebuilt, emitted, std::move(lost), missing, (won + missing) / wanted, swallowed};
   }
 
   namespace

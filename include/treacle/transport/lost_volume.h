@@ -9,12 +9,12 @@
 
 namespace treacle
 {
-  /// Volume that a step has pushed into a wall or solid.
+  /// Volume that a step has pushed into a wall, a solid or other liquid.
   template <int dim>
   struct LostVolume
   {
-    Point<dim>     entry;   ///< where the wall's surface is crossed (m)
-    Tensor<1, dim> outward; ///< unit, out of the wall
+    Point<dim>     entry;   ///< where the wall's surface is crossed, or in the liquid (m)
+    Tensor<1, dim> outward; ///< unit, out of the wall or the other liquid
     double         volume;  ///< m^dim
   };
 
@@ -30,12 +30,22 @@ namespace treacle
                 const double                   time_before,
                 const double                   time_after);
 
+  /// Of the facets that a step moves more than half a cell into liquid, as where a drop falls into a pool, what they sweep: what is
+  /// lost there, and the air that was before it. @p state is that after the step. Throws a UserError on all ranks. Collective.
+  template <int dim>
+  std::vector<LostVolume<dim>>
+  lost_in_liquid(const Scene<dim>              &scene,
+                 const State<dim>              &state,
+                 const Mesh<dim>               &mesh,
+                 const Surface<dim>            &surface,
+                 const std::vector<Point<dim>> &after);
+
   /// Its sum over all ranks (m^dim). Collective.
   template <int dim>
   double
   sum(const std::vector<LostVolume<dim>> &lost, const MPI_Comm &comm);
 
-  /// The same by the pressure cells in front of the walls, within two leaves; what finds none is
+  /// The same by the pressure cells there, in front of walls within two leaves; what finds none is
   /// left out. Collective.
   template <int dim>
   Vector

@@ -50,6 +50,8 @@ namespace treacle
       double                       missing = 0;
       /// How much of the volume the surface won otherwise, before it was corrected.
       double drift = 0;
+      /// What was lost otherwise, if it is worth while, over what the surface has moved over.
+      double swallowed = 0;
     };
 
     /// The surface moves, and all with it; @p volume is what the liquid had (m^dim). Nothing moves if more
