@@ -100,7 +100,7 @@ namespace treacle
     std::shared_ptr<const Utilities::MPI::Partitioner>
     partitioner_of_cells(const MPI_Comm &comm, const MeshCells<dim> &mesh)
     {
-      const unsigned int rank    = Utilities::MPI::this_mpi_process(comm);
+      const unsigned int       rank    = Utilities::MPI::this_mpi_process(comm);
       GlobalIndex              n_owned = 0;
       std::vector<GlobalIndex> ids;
       for (const auto &cell : mesh.cells)

@@ -72,28 +72,27 @@ namespace treacle
 
   template <int dim>
   std::vector<LostVolume<dim>>
-  lost_in_walls(const Scene<dim>              &scene,
-                const Mesh<dim>               &mesh,
-                const Surface<dim>            &surface,
-                const std::vector<Point<dim>> &after,
-                const double                   time_before,
-                const double                   time_after)
+  lost_in_walls(const Scene<dim>        &scene,
+                const MovedSurface<dim> &surface,
+                const double             time_before,
+                const double             time_after)
   {
+    const auto             &[mesh, before, after] = surface;
     std::vector<Depth<dim>> depth(after.size(), {0, {}});
     std::string             error;
-    keep_error(error, [&] {
+    keep_error(error, [&, &mesh = mesh, &before = before, &after = after] {
       for (unsigned int i = 0; i < after.size(); ++i)
         if (const Depth<dim> now = depth_in_walls(scene, mesh, after[i], time_after);
             now.value > 0 &&
-            depth_in_walls(scene, mesh, surface.positions[i], time_before).value <= 0)
+            depth_in_walls(scene, mesh, before.positions[i], time_before).value <= 0)
           depth[i] = now;
     });
     throw_first(mesh.communicator(), error);
     std::vector<LostVolume<dim>> lost;
-    for (unsigned int k = 0; k < surface.facets.size(); ++k)
+    for (unsigned int k = 0; k < before.facets.size(); ++k)
       {
-        const Tensor<1, dim> area = area_vector<dim>(surface.facet_points(k, after));
-        for (const unsigned int i : surface.facets[k])
+        const Tensor<1, dim> area = area_vector<dim>(before.facet_points(k, after));
+        for (const unsigned int i : before.facets[k])
           if (depth[i].value > 0)
             lost.push_back({after[i] + depth[i].value * depth[i].outward,
                             depth[i].outward,
@@ -104,19 +103,16 @@ namespace treacle
 
   template <int dim>
   std::vector<LostVolume<dim>>
-  lost_in_liquid(const Scene<dim>              &scene,
-                 const State<dim>              &state,
-                 const Mesh<dim>               &mesh,
-                 const Surface<dim>            &surface,
-                 const std::vector<Point<dim>> &after)
+  lost_in_liquid(const Scene<dim> &scene, const MovedSurface<dim> &surface, const State<dim> &state)
   {
+    const auto &[mesh, before, after] = surface;
     const std::vector<double> phi = Tracer<dim>(*state.mesh).evaluate(after, {{&state.phi}});
     std::vector<bool>         is_buried(after.size());
     std::string               error;
-    keep_error(error, [&] {
+    keep_error(error, [&, &mesh = mesh, &before = before, &after = after] {
       for (unsigned int i = 0; i < after.size(); ++i)
         {
-          const auto  &vertex = surface.vertices[i];
+          const auto  &vertex = before.vertices[i];
           const double edge   = mesh.node_position[vertex.a].distance(mesh.node_position[vertex.b]);
           is_buried[i] =
             phi[i] < -0.5 * edge && depth_in_walls(scene, mesh, after[i], state.time).value <= 0;
@@ -124,15 +120,31 @@ namespace treacle
     });
     throw_first(mesh.communicator(), error);
     std::vector<LostVolume<dim>> lost;
-    for (unsigned int k = 0; k < surface.facets.size(); ++k)
+    for (unsigned int k = 0; k < before.facets.size(); ++k)
       {
-        const Tensor<1, dim> area = area_vector<dim>(surface.facet_points(k, after));
-        for (const unsigned int i : surface.facets[k])
-          if (const double swept = area * (after[i] - surface.positions[i]) / dim;
+        const Tensor<1, dim> area = area_vector<dim>(before.facet_points(k, after));
+        for (const unsigned int i : before.facets[k])
+          if (const double swept = area * (after[i] - before.positions[i]) / dim;
               is_buried[i] && swept > 0)
             lost.push_back({after[i], -area / area.norm(), swept});
       }
     return lost;
+  }
+
+  template <int dim>
+  double
+  swept_outwards(const MovedSurface<dim> &surface)
+  {
+    const auto &[mesh, before, after] = surface;
+    double volume                     = 0;
+    for (unsigned int k = 0; k < before.facets.size(); ++k)
+      {
+        Tensor<1, dim> way;
+        for (const unsigned int i : before.facets[k])
+          way += (after[i] - before.positions[i]) / dim;
+        volume += std::max(0., area_vector<dim>(before.facet_points(k)) * way);
+      }
+    return Utilities::MPI::sum(volume, mesh.communicator());
   }
 
   template <int dim>
@@ -230,16 +242,13 @@ namespace treacle
 
 #define INSTANTIATE(dim)                                                                      \
   template std::vector<LostVolume<dim>> lost_in_walls(const Scene<dim> &,                     \
-                                                      const Mesh<dim> &,                      \
-                                                      const Surface<dim> &,                   \
-                                                      const std::vector<Point<dim>> &,        \
+                                                      const MovedSurface<dim> &,              \
                                                       const double,                           \
                                                       const double);                          \
   template std::vector<LostVolume<dim>> lost_in_liquid(const Scene<dim> &,                    \
-                                                       const State<dim> &,                    \
-                                                       const Mesh<dim> &,                     \
-                                                       const Surface<dim> &,                  \
-                                                       const std::vector<Point<dim>> &);      \
+                                                       const MovedSurface<dim> &,             \
+                                                       const State<dim> &);                   \
+  template double swept_outwards(const MovedSurface<dim> &);                                  \
   template double sum(const std::vector<LostVolume<dim>> &, const MPI_Comm &);                \
   template Vector lost_by_cells(const LiquidDomain<dim> &, const std::vector<LostVolume<dim>> &);
   INSTANTIATE(2)

@@ -16,24 +16,29 @@ namespace treacle
 {
   namespace
   {
-    /// Part of the volume that is pushed out of walls in a step, and not left to the even
+    /// Part of the volume that is pushed out of walls and other liquid in a step, and not left to the even
     /// correction: that lifts the whole body.
     constexpr double least_lost = 1e-4;
 
-    /// Volume that facets move over (m^dim). Collective.
+    /// Of the volume @p wanted, what is missing in walls and liquid, and what is lost otherwise, in a @p state that won some
+    /// (m^dim). Collective.
     template <int dim>
-    double
-    swept_outwards(const State<dim> &state, const Surface<dim> &surface, const std::vector<Point<dim>> &after)
+    void
+    account_for(typename Transport<dim>::Info &info,
+                const double                   won,
+                const double                   wanted,
+                const Scene<dim>              &scene,
+                const MovedSurface<dim>       &surface,
+                const State<dim>              &state)
     {
-      double volume = 0;
-      for (unsigned int k = 0; k < surface.facets.size(); ++k)
-        {
-          Tensor<1, dim> way;
-          for (const unsigned int i : surface.facets[k])
-            way += (after[i] - surface.positions[i]) / dim;
-          volume += std::max(0., area_vector<dim>(surface.facet_points(k)) * way);
-        }
-      return Utilities::MPI::sum(volume, state.mesh->communicator());
+      if (-won < least_lost * wanted)
+        return;
+      const auto in_liquid = lost_in_liquid(scene, surface, state);
+      info.lost.insert(info.lost.end(), in_liquid.begin(), in_liquid.end());
+      info.missing = std::min(sum(info.lost, surface.mesh.communicator()), -won);
+      if (info.missing < least_lost * wanted)
+        info.missing = 0;
+      info.swallowed = (-won - info.missing) / swept_outwards(surface);
     }
   } // namespace
 
@@ -50,11 +55,11 @@ namespace treacle
     const Advection<dim> advection(prm.advection, old, *liquid.domain, *liquid.surface, difference);
     const auto           ends = timing.measured(
       "markers", [&] { return advection.move_surface(liquid.surface->facets.positions); });
-    auto                 lost = timing.measured("surface", [&] {
-      return lost_in_walls(scene, *old.mesh, liquid.surface->facets, ends, old.time, old.time + difference.dt);
-    });
-    const double         all_lost = sum(lost, old.mesh->communicator());
-    if (all_lost > most_lost)
+    const MovedSurface<dim> moved{*old.mesh, liquid.surface->facets, ends};
+    Info                    info;
+    info.lost = timing.measured(
+      "surface", [&] { return lost_in_walls(scene, moved, old.time, old.time + difference.dt); });
+    if (sum(info.lost, old.mesh->communicator()) > most_lost)
       return {};
     const auto markers = timing.measured("markers", [&] { return advection.move_markers(); });
     const auto mesh    = timing.measured("mesh", [&] {
@@ -66,29 +71,22 @@ namespace treacle
     });
 
     const auto section = timing.section("surface");
-    const bool rebuilt = mesh != old.mesh;
-    auto       data    = rebuilt ? std::make_shared<const MeshData<dim>>(*mesh, scene) : liquid.mesh_data;
-    next->markers        = to_owners(*mesh, markers);
-    const double emitted = emit(*next, *data, difference.dt);
+    info.rebuilt       = mesh != old.mesh;
+    auto data          = info.rebuilt ? std::make_shared<const MeshData<dim>>(*mesh, scene) : liquid.mesh_data;
+    next->markers      = to_owners(*mesh, markers);
+    info.emitted       = emit(*next, *data, difference.dt);
     tracking.follow_markers(*next, *data, difference.dt, time_step.reach_of_distance(reach, *mesh));
-    const double wanted  = volume + emitted;
+    const double wanted = volume + info.emitted;
     // what earlier steps left to be corrected is not of this one
-    const double won = liquid_volume(*data, next->phi, next->time) - emitted -
+    const double won = liquid_volume(*data, next->phi, next->time) - info.emitted -
                        liquid.domain->total_volume();
-    double missing = 0, swallowed = 0;
-    if (tracking.keeps_volume() && -won >= least_lost * wanted)
-      {
-        const auto in_liquid = lost_in_liquid(scene, *next, *old.mesh, liquid.surface->facets, ends);
-        lost.insert(lost.end(), in_liquid.begin(), in_liquid.end());
-        missing = std::min(sum(lost, mesh->communicator()), -won);
-        if (missing < least_lost * wanted)
-          missing = 0;
-        swallowed = (-won - missing) / swept_outwards(old, liquid.surface->facets, ends);
-      }
-    auto surface = tracking.settle(*next, *data, wanted - missing);
+    if (tracking.keeps_volume())
+      account_for<dim>(info, won, wanted, scene, moved, *next);
+    info.drift   = (won + info.missing) / wanted;
+    auto surface = tracking.settle(*next, *data, wanted - info.missing);
     settle_material(*next, *data);
     liquid = {std::move(data), std::move(next), std::move(surface), nullptr};
-    return Info{rebuilt, emitted, std::move(lost), missing, (won + missing) / wanted, swallowed};
+    return info;
   }
 
   namespace

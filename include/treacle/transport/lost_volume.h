@@ -18,27 +18,34 @@ namespace treacle
     double         volume;  ///< m^dim
   };
 
-  /// Between the places of the surface's vertices before and after a step, of the facets of
-  /// this rank; what was in a solid before does not count. Sides of the box are walls too.
-  /// Throws a UserError on all ranks. Collective.
+  /// The surface of a mesh before a step, of this rank, and where its vertices are afterwards (m).
+  template <int dim>
+  struct MovedSurface
+  {
+    const Mesh<dim>               &mesh;
+    const Surface<dim>            &before;
+    const std::vector<Point<dim>> &after;
+  };
+
+  /// Between the places of the surface's vertices before and after a step; what was in a solid before
+  /// does not count. Sides of the box are walls too. Throws a UserError on all ranks. Collective.
   template <int dim>
   std::vector<LostVolume<dim>>
-  lost_in_walls(const Scene<dim>              &scene,
-                const Mesh<dim>               &mesh,
-                const Surface<dim>            &surface,
-                const std::vector<Point<dim>> &after,
-                const double                   time_before,
-                const double                   time_after);
+  lost_in_walls(const Scene<dim>        &scene,
+                const MovedSurface<dim> &surface,
+                const double             time_before,
+                const double             time_after);
 
   /// Of the facets that a step moves more than half a cell into liquid, as where a drop falls into a pool, what they sweep: what is
   /// lost there, and the air that was before it. @p state is that after the step. Throws a UserError on all ranks. Collective.
   template <int dim>
   std::vector<LostVolume<dim>>
-  lost_in_liquid(const Scene<dim>              &scene,
-                 const State<dim>              &state,
-                 const Mesh<dim>               &mesh,
-                 const Surface<dim>            &surface,
-                 const std::vector<Point<dim>> &after);
+  lost_in_liquid(const Scene<dim> &scene, const MovedSurface<dim> &surface, const State<dim> &state);
+
+  /// What facets move over, out of the liquid, over all ranks (m^dim). Collective.
+  template <int dim>
+  double
+  swept_outwards(const MovedSurface<dim> &surface);
 
   /// Its sum over all ranks (m^dim). Collective.
   template <int dim>
