@@ -120,11 +120,12 @@ namespace treacle
       /// Collective.
       ThingNumbers(const MPI_Comm           &comm,
                    const MeshCells<dim>     &mesh,
-                   const MeshNumbering<dim> &cells,
+                   const MeshNumbering<dim> &numbered_cells,
                    const ThingsOfCells<dim> &things)
         : rank(Utilities::MPI::this_mpi_process(comm))
         , mesh(mesh)
-        , cells(cells)
+        , cells(numbered_cells.cells)
+        , place(numbered_cells.cell)
         , things(things)
       {
         unsigned int n = 0;
@@ -187,11 +188,11 @@ namespace treacle
       exchange()
       {
         constexpr double    unknown = -1;
-        std::vector<Vector> of_corner(dim + 1, Vector(cells.cells));
+        std::vector<Vector> of_corner(dim + 1, Vector(cells));
         for (unsigned int i = 0; i < things.size(); ++i)
           if (is_mine(i))
             for (unsigned int k = 0; k <= dim; ++k)
-              of_corner[k].local_element(cells.cell[i]) =
+              of_corner[k].local_element(place[i]) =
                 number[things[i][k]] == numbers::invalid_dof_index ?
                   unknown :
                   static_cast<double>(number[things[i][k]]);
@@ -200,13 +201,14 @@ namespace treacle
         for (unsigned int i = 0; i < things.size(); ++i)
           if (!is_mine(i))
             for (unsigned int k = 0; k <= dim; ++k)
-              if (const double there = of_corner[k].local_element(cells.cell[i]); there != unknown)
+              if (const double there = of_corner[k].local_element(place[i]); there != unknown)
                 number[things[i][k]] = there;
       }
 
       const unsigned int        rank;
       const MeshCells<dim>     &mesh;
-      const MeshNumbering<dim> &cells;
+      const typename MeshNumbering<dim>::Partitioner &cells;
+      const std::vector<LocalIndex>                  &place; ///< of each cell among them
       const ThingsOfCells<dim> &things;
       std::vector<GlobalIndex>  number; ///< of each thing on this rank
       GlobalIndex               first;  ///< of those of this rank

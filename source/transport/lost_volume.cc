@@ -70,6 +70,22 @@ namespace treacle
     }
   } // namespace
 
+  namespace
+  {
+    /// Call @p visit with each vertex of each facet, and its part of the area vector of the facet afterwards.
+    template <int dim, typename Visit>
+    void
+    for_each_corner(const MovedSurface<dim> &surface, const Visit &visit)
+    {
+      for (unsigned int k = 0; k < surface.before.facets.size(); ++k)
+        {
+          const Tensor<1, dim> area = area_vector<dim>(surface.before.facet_points(k, surface.after)) / dim;
+          for (const unsigned int i : surface.before.facets[k])
+            visit(i, area);
+        }
+    }
+  } // namespace
+
   template <int dim>
   std::vector<LostVolume<dim>>
   lost_in_walls(const Scene<dim>        &scene,
@@ -89,15 +105,12 @@ namespace treacle
     });
     throw_first(mesh.communicator(), error);
     std::vector<LostVolume<dim>> lost;
-    for (unsigned int k = 0; k < before.facets.size(); ++k)
-      {
-        const Tensor<1, dim> area = area_vector<dim>(before.facet_points(k, after));
-        for (const unsigned int i : before.facets[k])
-          if (depth[i].value > 0)
-            lost.push_back({after[i] + depth[i].value * depth[i].outward,
-                            depth[i].outward,
-                            -depth[i].value * (area * depth[i].outward) / dim});
-      }
+    for_each_corner(surface, [&, &after = after](const unsigned int i, const Tensor<1, dim> &area) {
+      if (depth[i].value > 0)
+        lost.push_back({after[i] + depth[i].value * depth[i].outward,
+                        depth[i].outward,
+                        -depth[i].value * (area * depth[i].outward)});
+    });
     return lost;
   }
 
@@ -120,14 +133,12 @@ namespace treacle
     });
     throw_first(mesh.communicator(), error);
     std::vector<LostVolume<dim>> lost;
-    for (unsigned int k = 0; k < before.facets.size(); ++k)
-      {
-        const Tensor<1, dim> area = area_vector<dim>(before.facet_points(k, after));
-        for (const unsigned int i : before.facets[k])
-          if (const double swept = area * (after[i] - before.positions[i]) / dim;
-              is_buried[i] && swept > 0)
-            lost.push_back({after[i], -area / area.norm(), swept});
-      }
+    for_each_corner(surface,
+                    [&, &before = before, &after = after](const unsigned int i, const Tensor<1, dim> &area) {
+                      if (const double swept = area * (after[i] - before.positions[i]);
+                          is_buried[i] && swept > 0)
+                        lost.push_back({after[i], -area / area.norm(), swept});
+                    });
     return lost;
   }
 
