@@ -194,12 +194,55 @@ namespace treacle
       result = it->second;
   }
 
+  namespace
+  {
+    /// Ends of runs of owned leaves, each within a cube of its own: a run of so many along the curve
+    /// may lie in two far corners of a box.
+    template <int dim>
+    class CompactRuns
+    {
+    public:
+      explicit CompactRuns(const Octree<dim> &octree)
+        : octree(octree)
+        , longest(octree.n_owned_leaves() / 256 + 1)
+      {
+        divide(0, octree.n_owned_leaves(), 2 * octree.root_size());
+      }
+
+      std::vector<unsigned int> ends;
+
+    private:
+      /// Leaves from begin to end, in cubes half as large as they share.
+      void
+      divide(unsigned int begin, const unsigned int end, const int size)
+      {
+        const auto cube = [&](const unsigned int l) {
+          return cube_around<dim>(octree.leaves()[l].origin, size / 2);
+        };
+        while (begin < end)
+          {
+            unsigned int next = begin + 1;
+            while (next < end && cube(next) == cube(begin))
+              ++next;
+            if (next - begin > longest)
+              divide(begin, next, size / 2);
+            else
+              ends.push_back(next);
+            begin = next;
+          }
+      }
+
+      const Octree<dim> &octree;
+      const unsigned int longest; ///< run
+    };
+  } // namespace
+
   template <int dim>
   std::vector<BoundingBox<dim>>
   LatticeMesh<dim>::covering_boxes() const
   {
     return treacle::covering_boxes<dim>(
-      tree->n_owned_leaves(), [&](const unsigned int l, std::vector<Point<dim>> &corners) {
+      CompactRuns<dim>(*tree).ends, [&](const unsigned int l, std::vector<Point<dim>> &corners) {
         const Leaf<dim>  &leaf = tree->leaves()[l];
         LatticePoint<dim> top  = leaf.origin;
         for (int &i : top)

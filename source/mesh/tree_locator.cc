@@ -66,23 +66,32 @@ namespace treacle
       return x;
     }
 
-    template <int dim>
-    std::vector<std::vector<BoundingBox<dim>>>
-    boxes_of_ranks(const Mesh<dim> &mesh)
+    /// Ends of runs of n things, all as long.
+    std::vector<unsigned int>
+    even_runs(const unsigned int n)
     {
-      return Utilities::MPI::all_gather(
-        mesh.communicator(),
-        treacle::covering_boxes<dim>(mesh.n_owned_cells(),
-                                     [&](const LocalIndex c, std::vector<Point<dim>> &x) {
-                                       append_corners(mesh, c, x);
-                                     }));
+      constexpr unsigned int    n_runs = 64;
+      std::vector<unsigned int> ends;
+      for (unsigned int k = 1; k <= n_runs; ++k)
+        ends.push_back(static_cast<std::uint64_t>(n) * k / n_runs);
+      return ends;
+    }
+
+    template <int dim>
+    std::vector<BoundingBox<dim>>
+    boxes_of_runs(const Mesh<dim> &mesh)
+    {
+      return covering_boxes<dim>(even_runs(mesh.n_owned_cells()),
+                                 [&](const LocalIndex c, std::vector<Point<dim>> &x) {
+                                   append_corners(mesh, c, x);
+                                 });
     }
   } // namespace
 
   template <int dim>
   TreeLocator<dim>::TreeLocator(const Mesh<dim> &mesh)
-    : Locator<dim>(mesh)
-    , tree(boxes_of_cells(mesh), wall_facets(mesh), boxes_of_ranks(mesh))
+    : Locator<dim>(mesh, boxes_of_runs(mesh))
+    , tree(boxes_of_cells(mesh), wall_facets(mesh), this->rank_boxes())
   {}
 
   template <int dim>
@@ -202,13 +211,6 @@ namespace treacle
     for (unsigned int k = 0; k < asked.size(); ++k)
       result[elsewhere[k]] = owner[k].point;
     return result;
-  }
-
-  template <int dim>
-  std::vector<BoundingBox<dim>>
-  TreeLocator<dim>::covering_boxes() const
-  {
-    return tree.boxes_of_rank(Utilities::MPI::this_mpi_process(mesh.communicator()));
   }
 
   template class TreeLocator<2>;

@@ -11,9 +11,8 @@ namespace treacle
   NearMarkers<dim>::NearMarkers(const Mesh<dim>                &mesh,
                                 const std::vector<Marker<dim>> &markers,
                                 const double                    reach)
-    : reach(reach)
-    , comm(mesh.communicator())
-    , origin(mesh.box().get_boundary_points().first)
+    : comm(mesh.communicator())
+    , grid(mesh, reach)
   {
     const NearRanks<dim>                   near(mesh, reach);
     PerRank<typename Marker<dim>::Numbers> to_rank(near.n_ranks());
@@ -22,7 +21,7 @@ namespace treacle
       {
         all.push_back({markers[k], 0.});
         const Point<dim> &x = markers[k].position;
-        near.for_each(BoundingBox<dim>({x, x}), [&](const unsigned int r) {
+        near.for_each(x, x, [&](const unsigned int r) {
           to_rank[r].push_back(markers[k].numbers());
           sent[r].push_back(k);
         });
@@ -50,22 +49,12 @@ namespace treacle
   }
 
   template <int dim>
-  LatticePoint<dim>
-  NearMarkers<dim>::cube_of(const Point<dim> &x) const
-  {
-    LatticePoint<dim> cube;
-    for (unsigned int d = 0; d < dim; ++d)
-      cube[d] = static_cast<int>(std::max(0., std::floor((x[d] - origin[d]) / reach)));
-    return cube;
-  }
-
-  template <int dim>
   void
   NearMarkers<dim>::sort_into_cubes()
   {
     std::vector<std::pair<VertexKey, unsigned int>> order;
     for (unsigned int k = 0; k < all.size(); ++k)
-      order.emplace_back(pack<dim>(cube_of(all[k].marker.position)), k);
+      order.emplace_back(pack<dim>(grid.cube_of(all[k].marker.position)), k);
     // in an order that no partition changes: sums and ties depend on it
     std::sort(order.begin(), order.end(), [&](const auto &a, const auto &b) {
       return a.first != b.first ?
@@ -90,27 +79,19 @@ namespace treacle
   NearMarkers<dim>::append_around(const Point<dim>                     &x,
                                   std::vector<const NearMarker<dim> *> &result) const
   {
-    Point<dim> lower = x, upper = x;
+    const double reach = grid.edge;
+    Point<dim>   lower = x, upper = x;
     for (unsigned int d = 0; d < dim; ++d)
       {
         lower[d] -= reach;
         upper[d] += reach;
       }
-    const LatticePoint<dim> first = cube_of(lower), last = cube_of(upper);
-    for (LatticePoint<dim> cube = first; cube[dim - 1] <= last[dim - 1];)
-      {
-        if (const auto found = cubes.find(pack<dim>(cube)); found != cubes.end())
-          for (unsigned int k = found->second.first; k < found->second.second; ++k)
-            if ((all[k].marker.position - x).norm_square() < reach * reach)
-              result.push_back(&all[k]);
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            ++cube[d];
-            if (cube[d] <= last[d] || d == dim - 1)
-              break;
-            cube[d] = first[d];
-          }
-      }
+    grid.for_each(lower, upper, [&](const LatticePoint<dim> &cube) {
+      if (const auto found = cubes.find(pack<dim>(cube)); found != cubes.end())
+        for (unsigned int k = found->second.first; k < found->second.second; ++k)
+          if ((all[k].marker.position - x).norm_square() < reach * reach)
+            result.push_back(&all[k]);
+    });
   }
 
   template <int dim>

@@ -33,8 +33,9 @@ namespace treacle
       {
         const Facet x = surface.facet_points(k);
         facets.push_back(x);
-        const BoundingBox<dim> around(std::vector<Point<dim>>(x.begin(), x.end()));
-        near.for_each(around, [&](const unsigned int r) {
+        const auto [lower, upper] =
+          BoundingBox<dim>(std::vector<Point<dim>>(x.begin(), x.end())).get_boundary_points();
+        near.for_each(lower, upper, [&](const unsigned int r) {
           to_rank[r].emplace_back();
           for (unsigned int i = 0; i < dim; ++i)
             for (unsigned int d = 0; d < dim; ++d)

@@ -49,12 +49,6 @@ namespace treacle
     void
     ranks_around(const Point<dim> &x, double distance, std::vector<unsigned int> &result) const;
 
-    const std::vector<BoundingBox<dim>> &
-    boxes_of_rank(const unsigned int rank) const
-    {
-      return rank_boxes[rank];
-    }
-
     /// Around the cells of all ranks.
     const BoundingBox<dim> &
     box() const

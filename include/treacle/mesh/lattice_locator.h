@@ -18,7 +18,7 @@ namespace treacle
     using Owner = typename Locator<dim>::Owner;
 
     LatticeLocator(const Mesh<dim> &mesh, std::unique_ptr<const LatticeMesh<dim>> lattice)
-      : Locator<dim>(mesh)
+      : Locator<dim>(mesh, lattice->covering_boxes())
       , lattice(std::move(lattice))
     {}
 
@@ -36,12 +36,6 @@ namespace treacle
 
     std::vector<Point<dim>>
     clamped(const std::vector<Point<dim>> &x) const override;
-
-    std::vector<BoundingBox<dim>>
-    covering_boxes() const override
-    {
-      return lattice->covering_boxes();
-    }
 
   private:
     /// The cells that may contain x, in the leaf with this index.

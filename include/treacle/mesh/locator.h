@@ -30,8 +30,10 @@ namespace treacle
   class Locator
   {
   public:
-    explicit Locator(const Mesh<dim> &mesh)
+    /// @p covering: boxes around the cells that this rank owns, or whose leaves it does. Collective.
+    Locator(const Mesh<dim> &mesh, const std::vector<BoundingBox<dim>> &covering)
       : mesh(mesh)
+      , boxes(Utilities::MPI::all_gather(mesh.communicator(), covering))
     {}
 
     Locator(const Locator &) = delete;
@@ -81,9 +83,12 @@ namespace treacle
     virtual std::vector<Point<dim>>
     clamped(const std::vector<Point<dim>> &x) const = 0;
 
-    /// Boxes around the cells that this rank owns, or whose leaves it does.
-    virtual std::vector<BoundingBox<dim>>
-    covering_boxes() const = 0;
+    /// Boxes that cover the cells of each rank.
+    const std::vector<std::vector<BoundingBox<dim>>> &
+    rank_boxes() const
+    {
+      return boxes;
+    }
 
   protected:
     Point<dim>
@@ -107,6 +112,9 @@ namespace treacle
 
     const Mesh<dim>                &mesh;
     mutable std::vector<LocalIndex> candidates;
+
+  private:
+    const std::vector<std::vector<BoundingBox<dim>>> boxes; ///< of ranks
   };
 } // namespace treacle
 

@@ -4,35 +4,35 @@
 #ifndef treacle_mesh_near_ranks_h
 #define treacle_mesh_near_ranks_h
 
-#include <treacle/mesh/locator.h>
+#include <treacle/mesh/cube_grid.h>
 
 namespace treacle
 {
-  /// Which other ranks have cells within a margin of a box (or a few more).
+  /// Which other ranks have cells within a margin of a box (or a few more: all that lies in
+  /// one cube of a leaf, or a quarter of the margin, has the same).
   template <int dim>
   class NearRanks
   {
   public:
-    /// Collective. @p margin in m.
-    NearRanks(const Mesh<dim> &mesh, const double margin)
-      : rank(Utilities::MPI::this_mpi_process(mesh.communicator()))
-    {
-      std::vector<BoundingBox<dim>> mine = mesh.locator().covering_boxes();
-      for (BoundingBox<dim> &box : mine)
-        box.extend(margin);
-      boxes = Utilities::MPI::all_gather(mesh.communicator(), mine);
-    }
+    /// @p margin in m.
+    NearRanks(const Mesh<dim> &mesh, const double margin);
 
-    /// Call @p visit with each other rank that may have a cell near @p around.
+    /// Call @p visit with each other rank that may have a cell near the box between two corners.
     template <typename Visit>
     void
-    for_each(const BoundingBox<dim> &around, const Visit &visit) const
+    for_each(const Point<dim> &lower, const Point<dim> &upper, const Visit &visit) const
     {
-      for (unsigned int r = 0; r < boxes.size(); ++r)
-        if (r != rank && std::any_of(boxes[r].begin(), boxes[r].end(), [&](const auto &other) {
-              return other.get_neighbor_type(around) != NeighborType::not_neighbors;
-            }))
-          visit(r);
+      if (n_ranks() == 1)
+        return;
+      std::vector<unsigned int> visited;
+      grid.for_each(lower, upper, [&](const LatticePoint<dim> &cube) {
+        for (const unsigned int r : near(cube))
+          if (std::find(visited.begin(), visited.end(), r) == visited.end())
+            {
+              visited.push_back(r);
+              visit(r);
+            }
+      });
     }
 
     unsigned int
@@ -42,8 +42,14 @@ namespace treacle
     }
 
   private:
-    const unsigned int                         rank;
-    std::vector<std::vector<BoundingBox<dim>>> boxes; ///< of each rank's cells
+    const std::vector<unsigned int> &
+    near(const LatticePoint<dim> &cube) const;
+
+    const unsigned int                                               rank;
+    const CubeGrid<dim>                                              grid;
+    const double                                                     margin;
+    const std::vector<std::vector<BoundingBox<dim>>>                &boxes; ///< of each rank's cells
+    mutable std::unordered_map<VertexKey, std::vector<unsigned int>> known; ///< by cube
   };
 } // namespace treacle
 

@@ -64,6 +64,13 @@ namespace treacle
       return weights.size();
     }
 
+    /// Edge of a root cube in lattice units.
+    int
+    root_size() const
+    {
+      return 2 << prm.surface_level;
+    }
+
     /// What the partition weighed the owned leaves by.
     const std::vector<unsigned int> &
     leaf_weights() const
@@ -122,13 +129,6 @@ namespace treacle
     alike(const std::vector<Leaf<dim>> &leaves)
     {
       return std::vector<unsigned int>(leaves.size(), 1);
-    }
-
-    /// Edge of a root cube in lattice units.
-    int
-    root_size() const
-    {
-      return 2 << prm.surface_level;
     }
 
     /// A tree of p4est's forest, and the place along the Morton curve in it.

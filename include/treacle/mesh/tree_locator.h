@@ -32,9 +32,6 @@ namespace treacle
     std::vector<Point<dim>>
     clamped(const std::vector<Point<dim>> &x) const override;
 
-    std::vector<BoundingBox<dim>>
-    covering_boxes() const override;
-
   private:
     /// The cell of the lowest number that contains x. With @p owned, of owned ones;
     /// else of all, but invalid if no owned one contains it: what does not touch the

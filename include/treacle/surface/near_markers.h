@@ -6,7 +6,7 @@
 
 #include <treacle/base/exchange.h>
 #include <treacle/fields/marker.h>
-#include <treacle/mesh/mesh.h>
+#include <treacle/mesh/cube_grid.h>
 
 #include <deal.II/base/array_view.h>
 
@@ -50,18 +50,12 @@ namespace treacle
     void
     append_around(const Point<dim> &x, std::vector<const NearMarker<dim> *> &result) const;
 
-    const double reach; ///< m
-
   private:
-    /// Of the grid of cubes of edge reach.
-    LatticePoint<dim>
-    cube_of(const Point<dim> &x) const;
-
     void
     sort_into_cubes();
 
     const MPI_Comm                                                        comm;
-    const Point<dim>                                                      origin;
+    const CubeGrid<dim>                                                   grid; ///< edge: the reach
     PerRank<unsigned int>                                                 sent; ///< markers, to ranks
     std::vector<NearMarker<dim>>                                          all;
     /// In all, of this rank's markers and then of those it was sent.
