@@ -28,6 +28,24 @@ namespace treacle
     /// Times that a step is halved for that.
     constexpr unsigned int most_halvings = 4;
 
+    /// Does more than half of a change of the velocity at x come of a fall that lasts dt at most?
+    template <int dim>
+    bool
+    is_fall(const Tensor<1, dim> &change,
+            const Scene<dim>     &scene,
+            const Point<dim>     &x,
+            const double          time,
+            const double          dt)
+    {
+      Tensor<1, dim> fall;
+      std::string    ignored; // gravity need not be known in the air
+      keep_error(ignored, [&] { fall = dt * scene.gravity(x, time); });
+      const double whole = fall.norm_square();
+      if (whole > 0)
+        fall *= std::clamp(change * fall / whole, 0., 1.);
+      return (change - fall).norm() < 0.5 * change.norm();
+    }
+
     /// The liquid where it is, with another velocity.
     template <int dim>
     Liquid<dim>
@@ -106,7 +124,7 @@ namespace treacle
     const NodeVector<dim>    expected   = liquid.state->v;
     info.dynamics                       = dynamics.advance(liquid, difference, timing);
     extend_velocity(liquid);
-    forget_blows(*liquid.state, *liquid.domain, expected);
+    forget_blows(*liquid.state, *liquid.domain, expected, info.dt);
     return 0.5 * info.dt *
            fastest_crossing(*liquid.domain, combined(1, liquid.state->v, -1, expected));
   }
@@ -115,7 +133,8 @@ namespace treacle
   void
   TimeStepping<dim>::forget_blows(State<dim>              &state,
                                   const LiquidDomain<dim> &domain,
-                                  const NodeVector<dim>   &expected)
+                                  const NodeVector<dim>   &expected,
+                                  const double             dt)
   {
     if (!state.before || !state.before->v)
       return;
@@ -127,7 +146,8 @@ namespace treacle
         const Tensor<1, dim> v = state.v.value(node), w = expected.value(node), d = v - w;
         // of the whole velocity a quarter, of what it is in this direction half
         if (d.norm() > std::max(least, 0.25 * std::max(v.norm(), w.norm())) &&
-            d.norm_square() > 0.5 * std::max(std::abs(v * d), std::abs(w * d)))
+            d.norm_square() > 0.5 * std::max(std::abs(v * d), std::abs(w * d)) &&
+            !is_fall(d, domain.scene, mesh.node_position[node], state.time, dt))
           {
             state.before->v->set(node, v);
             blow.local_element(node) = 1;

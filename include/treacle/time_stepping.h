@@ -76,10 +76,14 @@ namespace treacle
              const typename Transport<dim>::Info &moved,
              const double                         volume) const;
 
-    /// Where the velocity is not what the past made expect, there was a blow; continued over it,
-    /// the past points the wrong way: what falls would bounce. It is forgotten there.
+    /// Where the velocity is neither what the past made expect, nor falls from that within @p dt,
+    /// there was a blow; continued over it, the past points the wrong way: what falls would bounce.
+    /// It is forgotten there.
     static void
-    forget_blows(State<dim> &state, const LiquidDomain<dim> &domain, const NodeVector<dim> &expected);
+    forget_blows(State<dim>              &state,
+                 const LiquidDomain<dim> &domain,
+                 const NodeVector<dim>   &expected,
+                 const double             dt);
 
     void
     find(Liquid<dim> &liquid) const

@@ -2,7 +2,8 @@
 // Copyright (C) the Treacle authors
 
 // A pool that is given a velocity into walls and floor, which slip: it keeps its volume and gains
-// no energy. A ball at rest falls by g t^2 / 2 from the first step on.
+// no energy. A ball at rest falls by g t^2 / 2 from the first step on, and so does one that is
+// thrown up, whose steps double where it is slow.
 
 #include "../run_scene.h"
 #include "../tests.h"
@@ -70,6 +71,33 @@ namespace
       }
     out() << " of g t^2 / 2" << std::endl;
   }
+
+  template <int dim>
+  void
+  thrown(const MPI_Comm &comm)
+  {
+    const auto rows = run_scene<dim>(
+      comm,
+      mesh<dim>(dim == 2 ? "5" : "4") +
+        "set End time = 0.25\nset Frame interval = 0.05\nset Maximum time step = 0.05\n"
+        "set Maximum CFL number = " + (dim == 2 ? "3" : "1.5") +
+        "\nsubsection Liquid 1\nset Centre = " + (dim == 2 ? "0.57, 0.47" : "0.57, 0.5, 0.4") +
+        "\nset Radius = 0.12\nset Velocity = " + (dim == 2 ? "-1.07; 1.83" : "-1.07; 0; 1.83") + "\nend\n");
+    const double g = 9.81, volume = rows.at(0).at("Liquid volume (m^" + std::to_string(dim) + ")");
+    double       worst = 0, growth = 0, before = 0;
+    for (const Row &row : rows)
+      {
+        const double t = row.at("Time (s)");
+        const double raised =
+          (row.at("Potential energy (J)") - rows.front().at("Potential energy (J)")) / (1000 * g * volume);
+        worst = std::max(worst, std::abs(raised - (1.83 - 0.5 * g * t) * t));
+        if (before > 0)
+          growth = std::max(growth, row.at("Time step size (s)") / before);
+        before = row.at("Time step size (s)");
+      }
+    out() << dim << "D ball, thrown, off by " << worst / (0.5 * g * 0.25 * 0.25)
+          << " of g t^2 / 2 at most, steps grow by " << growth << " at most" << std::endl;
+  }
 } // namespace
 
 void
@@ -81,6 +109,8 @@ start(const int, char **)
     pushed_pool<3>(comm);
     fall<2>(comm);
     fall<3>(comm);
+    thrown<2>(comm);
+    thrown<3>(comm);
   });
 }
 

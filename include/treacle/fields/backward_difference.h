@@ -24,8 +24,10 @@ namespace treacle
       : dt(dt)
       , step(dt)
     {
-      // BDF2 is stable as long as a step is at most 1 + sqrt(2) times the one before
-      if (!old.before || dt > 2 * old.before->dt)
+      // BDF2 is stable as long as a step is at most 1 + sqrt(2) times the one before; steps that
+      // double, and are rounded to end with a frame, are of second order
+      constexpr double largest_growth = 2 + 1e-5;
+      if (!old.before || dt > largest_growth * old.before->dt)
         return;
       const double ratio = dt / old.before->dt;
       step               = dt * (1 + ratio) / (1 + 2 * ratio);
