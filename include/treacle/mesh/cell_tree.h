@@ -24,7 +24,8 @@ namespace treacle
     };
 
     /// @p cells: boxes of the cells of this rank; @p walls in an order that no
-    /// partition changes; @p ranks: boxes around the cells of each rank.
+    /// partition changes; @p ranks: boxes around the cells of each rank, which
+    /// must outlive this object.
     CellTree(const std::vector<BoundingBox<dim>>              &cells,
              const std::vector<WallFacet>                     &walls,
              const std::vector<std::vector<BoundingBox<dim>>> &ranks);
@@ -65,9 +66,9 @@ namespace treacle
   private:
     using Entry = std::pair<BoundingBox<dim>, unsigned int>;
 
-    const std::vector<WallFacet>                     walls;
-    const std::vector<std::vector<BoundingBox<dim>>> rank_boxes;
-    RTree<Entry>                                     cell_boxes, wall_boxes;
+    const std::vector<WallFacet>                      walls;
+    const std::vector<std::vector<BoundingBox<dim>>> &rank_boxes;
+    RTree<Entry>                                      cell_boxes, wall_boxes;
   };
 } // namespace treacle
 
