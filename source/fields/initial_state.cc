@@ -98,13 +98,65 @@ namespace treacle
     throw_first(mesh.communicator(), error);
   }
 
+  namespace
+  {
+    /// In leaves: what is given as close to a solid as this touches it, and goes on into it as far as that.
+    constexpr double touching = 0.1, into_solids = 3;
+
+    /// Of the distance from the scene's solids at t = 0, by differences over +-d (m); a formula's need not have length 1.
+    template <int dim>
+    Tensor<1, dim>
+    solid_gradient(const Scene<dim> &scene, const Point<dim> &x, const double d)
+    {
+      Tensor<1, dim> result;
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          const Tensor<1, dim> along = d * Point<dim>::unit_vector(a);
+          result[a] = (scene.solid_distance(x + along, 0) - scene.solid_distance(x - along, 0)) / (2 * d);
+        }
+      return result;
+    }
+
+    /// The distance to the liquid at t = 0, but in solids that of its image behind the wall where it touches that: nodes would
+    /// see a film of air between two bodies that end at the same place. Near the contact line the free surface goes on
+    /// straight. h (m) is the edge of the leaves.
+    template <int dim>
+    double
+    initial_distance(const Scene<dim> &scene, const Point<dim> &x, const double h)
+    {
+      const double phi = scene.liquid_distance(x);
+      if (phi <= 0 || !scene.has_solids())
+        return phi;
+      const double s = scene.solid_distance(x, 0);
+      if (s >= 0)
+        return phi;
+      const Tensor<1, dim> gradient = solid_gradient(scene, x, 0.01 * h);
+      const double         slope    = gradient.norm();
+      if (!(slope > 0) || -s > into_solids * h * slope)
+        return phi;
+      const double         depth = -s / slope;
+      const Tensor<1, dim> out   = gradient / slope;
+      const auto           before = [&](const double way) { return scene.liquid_distance(x + (depth + way) * out); };
+      if (before(touching * h) >= 0)
+        return phi;
+      const double near = before(0.5 * depth), far = before(depth);
+      const bool   is_free = near > -0.45 * depth && far > -0.9 * depth; // else it is the wall that is near
+      return std::min(phi, is_free ? near + 3 * (near - far) : far);
+    }
+  } // namespace
+
   template <int dim>
   void
   set_initial_level_set(State<dim> &state, const Scene<dim> &scene)
   {
     const Mesh<dim> &mesh = *state.mesh;
+    std::string      error;
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      state.phi.local_element(node) = scene.liquid_distance(mesh.node_position[node]);
+      keep_error(error, [&] {
+        state.phi.local_element(node) =
+          initial_distance(scene, mesh.node_position[node], mesh.finest_size());
+      });
+    throw_first(mesh.communicator(), error);
     state.phi.update_ghost_values();
   }
 

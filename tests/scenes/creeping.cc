@@ -3,7 +3,7 @@
 
 // Stiff liquid takes steps as long as its motion allows, not as gravity would: a wave on a liquid of
 // depth 1 levels out at the exact rate in few steps (C3: 0.145546628 g h / nu), stays level in steps
-// of five times the time that takes, and what a solid has carried falls at once when it is gone.
+// of five times the time that takes, and goes at once with the solid that carries it when that falls, faster than it would.
 
 #include "../run_scene.h"
 #include "../tests.h"

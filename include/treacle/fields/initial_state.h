@@ -20,7 +20,8 @@ namespace treacle
   void
   check_walls(const Mesh<dim> &mesh, const Scene<dim> &scene, const std::string &file);
 
-  /// The distance to the scene's liquids at t = 0; ghosts are up to date.
+  /// The distance to the scene's liquids at t = 0 (m), which go on into solids that they touch; ghosts are up to date.
+  /// Throws a UserError on all ranks where a solid's is not known. Collective.
   template <int dim>
   void
   set_initial_level_set(State<dim> &state, const Scene<dim> &scene);

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+// Liquid that is given up to where a solid begins touches it from the start: at rest in a bowl of its own shape, and
+// under a plate that presses it flat. With a film of air between them, a part of a leaf thick, a step in the bowl lost up
+// to 5 % of the volume, and the plate felt half of the force in single steps.
+
+#include "../run_scene.h"
+#include "../tests.h"
+
+namespace tests::scenes_contact
+{
+namespace
+{
+  double
+  most_in_a_step(const std::vector<Row> &rows)
+  {
+    double most = 0;
+    for (const Row &row : rows)
+      most = std::max(most, std::abs(row.at("Drift before correction")));
+    return 100 * most;
+  }
+
+  template <int dim>
+  void
+  rest_in_bowl(const MPI_Comm &comm)
+  {
+    const std::string z = dim == 2 ? "y" : "z",
+                      r = "sqrt((x - 0.5)^2 + (y - 0.5)^2" + std::string(dim == 2 ? ")" : " + (z - 0.5)^2)");
+    const auto        rows =
+      run_scene<dim>(comm,
+                     "set End time = 0.2\nset Frame interval = 0.1\nsubsection Mesh\nset Surface level = " +
+                       std::string(dim == 2 ? "5" : "4") +
+                       "\nset Interior level = 3\nend\nsubsection Material\nset Density = 1000\nset Viscosity = 10\nend\n"
+                       "subsection Liquid 1\nset Shape = expression\nset Expression = max(" + r + " - 0.35, " + z +
+                       " - 0.4)\nend\nsubsection Solid 1\nset Shape = expression\nset Expression = 0.35 - " + r + "\nend\n",
+                     1);
+    const double exact = dim == 2 ? 0.1225 * std::acos(0.1 / 0.35) - 0.1 * std::sqrt(0.1125) :
+                                    numbers::PI * 0.0625 * 0.8 / 3;
+    const std::string volume = dim == 2 ? "Liquid volume (m^2)" : "Liquid volume (m^3)";
+    out() << std::setprecision(2) << dim << "D: in a bowl, volume off by " << 100 * (rows.front().at(volume) / exact - 1)
+          << " %, in a step by " << most_in_a_step(rows) << " %, speed " << rows.back().at("Maximum speed (m/s)")
+          << std::endl;
+  }
+
+  /// A plate of speed V that presses A of liquid, 2D, h high: a force of mu V (A / h^2)^3 by lubrication, less at the front.
+  void
+  press(const MPI_Comm &comm)
+  {
+    constexpr double speed = 0.5, viscosity = 10, area = 0.18;
+    const auto       rows  = run_scene<2>(
+      comm,
+      "set End time = 0.28\nset Frame interval = 0.28\nset Maximum time step = 0.01\n"
+      "subsection Domain\nset Upper corner = 2, 1\nend\n"
+      "subsection Mesh\nset Surface level = 5\nset Interior level = 5\nend\n"
+      "subsection Material\nset Density = 1\nset Viscosity = 10\nend\n"
+      "subsection Gravity\nset Acceleration = 0; 0\nend\n"
+      "subsection Liquid 1\nset Shape = box\nset Lower corner = 0.7, -1\nset Upper corner = 1.3, 0.3\nend\n"
+      "subsection Solid 1\nset Shape = box\nset Lower corner = 0.1, 0.3\nset Upper corner = 1.9, 0.5\n"
+      "set Velocity = 0; -0.5\nend\n",
+      1);
+    double least = std::numeric_limits<double>::max(), most = 0;
+    for (const Row &row : rows)
+      if (row.at("Time (s)") > 0.15)
+        {
+          const double h     = 0.3 - speed * row.at("Time (s)");
+          const double ratio = row.at("Solid 1 force y (N)") / (viscosity * speed * std::pow(area / (h * h), 3));
+          least              = std::min(least, ratio);
+          most               = std::max(most, ratio);
+        }
+    out() << std::setprecision(2) << "2D: pressed, force " << least << " to " << most
+          << " of that of lubrication" << std::endl;
+  }
+} // namespace
+
+void
+start(const int, char **)
+{
+  on_1_2_3_ranks([](const MPI_Comm &comm) {
+    rest_in_bowl<2>(comm);
+    rest_in_bowl<3>(comm);
+    press(comm);
+  });
+}
+
+const Test test("scenes/contact", start);
+} // namespace tests::scenes_contact
