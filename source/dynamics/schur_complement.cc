@@ -10,6 +10,8 @@ namespace treacle
   {
     /// Of mu step over rho h^2: less than this is none.
     constexpr double least_viscosity = 1e-12;
+    /// The library's 1e-12 is much beside the volume over viscosity of rock.
+    constexpr double least_diagonal = std::numeric_limits<double>::min();
     /// Over so much of the liquid's extent viscosity acts in a step where it rules.
     constexpr double far = 0.1;
   } // namespace
@@ -27,7 +29,7 @@ namespace treacle
   {
     // over its diagonal most of it has eigenvalues from 0.05 to 2, whatever mesh and viscosity are
     if (pressure.rows().size() > 0)
-      viscous_inverse.initialize(*viscous, {8, 2., 50.});
+      viscous_inverse.initialize(*viscous, {8, 2., 50., 1., least_diagonal});
   }
 
   template <int dim>

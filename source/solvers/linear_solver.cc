@@ -88,6 +88,19 @@ namespace treacle
       amg->initialize(matrix, list);
       return amg;
     }
+
+    /// ML takes entries below 1e-12 or so for zeros, whatever unit they have: those of a drop of a tenth of a millimetre.
+    constexpr double smallest_size = 1e-7;
+
+    /// A multiple of a matrix whose entries are small beside those.
+    std::shared_ptr<const TrilinosWrappers::SparseMatrix>
+    enlarged(const TrilinosWrappers::SparseMatrix &matrix, const double factor)
+    {
+      const auto result = std::make_shared<TrilinosWrappers::SparseMatrix>();
+      result->copy_from(matrix);
+      *result *= factor;
+      return result;
+    }
   } // namespace
 
   namespace
@@ -113,8 +126,14 @@ namespace treacle
               // ML keeps the address of the vectors
               const auto null_space =
                 std::make_shared<NearNullSpace>(near_null ? near_null() : NearNullSpace());
-              const auto amg = make_amg(matrix, *null_space);
-              return [amg, null_space](Vector &z, const Vector &r) { amg->vmult(z, r); };
+              const double size  = matrix.linfty_norm();
+              const auto   large = size > 0 && size < smallest_size ? enlarged(matrix, 1 / size) : nullptr;
+              const auto   amg   = make_amg(large ? *large : matrix, *null_space);
+              return [amg, null_space, large, size](Vector &z, const Vector &r) {
+                amg->vmult(z, r);
+                if (large)
+                  z /= size;
+              };
             }
           case Preconditioner::incomplete_cholesky:
             return make(std::make_shared<TrilinosWrappers::PreconditionIC>());

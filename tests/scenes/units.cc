@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+// What a slump does, and what its solves cost, does not depend on units: a block of a micrometre, or one of any density,
+// is that of a metre once more. (Libraries that take what is below 1e-12 for zero made up to twenty times as many
+// iterations of it, and other figures.)
+
+#include "../run_scene.h"
+#include "../tests.h"
+
+namespace tests::scenes_units
+{
+namespace
+{
+  /// Of length, time and density.
+  struct Units
+  {
+    double m, s, density;
+  };
+
+  template <int dim>
+  Row
+  slump(const MPI_Comm &comm, const Units &unit)
+  {
+    const auto number = [](const double value) {
+      std::ostringstream text;
+      text << std::setprecision(17) << value;
+      return text.str();
+    };
+    const auto point = [&](const double across, const double up) {
+      std::string text;
+      for (unsigned int d = 0; d + 1 < dim; ++d)
+        text += number(across * unit.m) + ", ";
+      return text + number(up * unit.m);
+    };
+    return run_scene<dim>(comm,
+                          "set End time = " + number((dim == 2 ? 0.5 : 0.1) * unit.s) + "\nset Frame interval = " + number((dim == 2 ? 0.5 : 0.1) * unit.s) +
+                            "\nset Maximum time step = " + number(0.05 * unit.s) +
+                            "\nsubsection Domain\nset Lower corner = " + point(-1.25, 0) + "\nset Upper corner = " +
+                            point(1.25, 1.25) + "\nend\nsubsection Mesh\nset Surface level = 4\nset Interior level = 3\nend\n"
+                            "subsection Material\nset Density = " + number(unit.density) + "\nset Viscosity = " +
+                            number(unit.density * unit.m * unit.m / unit.s) +
+                            "\nend\nsubsection Gravity\nset Acceleration = 0; " + (dim == 3 ? "0; " : "") +
+                            number(-9.81 * unit.m / (unit.s * unit.s)) +
+                            "\nend\nsubsection Liquid 1\nset Shape = box\nset Lower corner = " + point(-0.5, -0.5) +
+                            "\nset Upper corner = " + point(0.47, 0.8) + "\nend\n")
+      .back();
+  }
+
+  template <int dim>
+  void
+  compare(const MPI_Comm &comm)
+  {
+    const Row         one    = slump<dim>(comm, {1, 1, 1});
+    const std::string height = dim == 2 ? "Liquid maximum y (m)" : "Liquid maximum z (m)", width = "Liquid maximum x (m)";
+    out() << std::setprecision(4) << dim << "D: width " << one.at(width) << ", height " << one.at(height) << std::endl;
+    for (const auto &[name, unit] : std::map<std::string, Units>{{"micrometres", {1e-6, 1e-4, 1000}}, {"much mass", {1, 1, 1e14}}})
+      {
+        const Row    row  = slump<dim>(comm, unit);
+        const double most = std::max(std::abs(row.at(width) / (unit.m * one.at(width)) - 1),
+                                     std::abs(row.at(height) / (unit.m * one.at(height)) - 1));
+        out() << "  " << name << ": the same " << (most < 1e-6 ? "yes" : "no") << ", iterations "
+              << (std::abs(row.at("Viscosity iterations") - one.at("Viscosity iterations")) < 2 ? "too" : "not")
+              << std::endl;
+      }
+  }
+} // namespace
+
+void
+start(const int, char **)
+{
+  on_1_2_3_ranks([](const MPI_Comm &comm) {
+    compare<2>(comm);
+    compare<3>(comm);
+  });
+}
+
+const Test test("scenes/units", start);
+} // namespace tests::scenes_units
