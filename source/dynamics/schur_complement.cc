@@ -77,7 +77,7 @@ namespace treacle
         mass.push_back(volume / (2 * mu_dt));
       }
     return pressure.assemble(
-      [&](const LocalIndex f) { return (1 - hybrid.share[f]) / domain.face_mass[f]; }, mass);
+      [&](const LocalIndex f) { return hybrid.rest[f] / domain.face_mass[f]; }, mass);
   }
 
   template <int dim>

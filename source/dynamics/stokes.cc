@@ -120,7 +120,7 @@ namespace treacle
     v.update_ghost_values();
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       flux.local_element(f) = domain.is_liquid_face(f) ?
-                                (1 - hybrid.share[f]) * state.u.local_element(f) +
+                                hybrid.rest[f] * state.u.local_element(f) +
                                   hybrid.share[f] * face_velocity(mesh, v, f) :
                                 state.u.local_element(f);
     flux.update_ghost_values();

@@ -61,15 +61,14 @@ namespace treacle
           });
         if (!is_ours || !domain.is_liquid_face(f) || !pressure.is_unknown(f))
           continue;
-        const double s = hybrid.share[f];
-        Face         face;
+        Face face;
         for (unsigned int i = 0; i < dim; ++i)
           face.nodes[i] = node_place(mesh.face_nodes[f][i]);
         for (unsigned int i = 0; i < 2; ++i)
           face.cells[i] = cell_place(sides[i]);
         face.flux     = domain.open_fraction[f] * mesh.face_area[f];
-        face.mobility = (1 - s) / domain.face_mass[f];
-        face.share    = s / dim * mesh.face_normal[f];
+        face.mobility = hybrid.rest[f] / domain.face_mass[f];
+        face.share    = hybrid.share[f] / dim * mesh.face_normal[f];
         faces.push_back(face);
       }
     v.resize(nodes.size());

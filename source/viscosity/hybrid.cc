@@ -30,7 +30,7 @@ namespace treacle
   {
     const LiquidDomain<dim> &domain = system.domain;
     const Mesh<dim>         &mesh   = domain.mesh;
-    Vector                   part = mesh.zeros(mesh.faces), weights = mesh.zeros(mesh.faces);
+    Vector                   part = mesh.zeros(mesh.faces), weights = part, other_part = part;
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       {
         if (!domain.is_liquid_face(f))
@@ -45,15 +45,18 @@ namespace treacle
               ++n;
             }
         const double ratio = n > 0 ? drag * nu / n * step / (h * h) : 0;
-        const double s           = std::max(ratio / (1 + ratio), least_share);
-        part.local_element(f)    = s;
-        weights.local_element(f) = domain.face_mass[f] * (is_idle[f] ? idle * s : s);
+        const double s = std::max(ratio / (1 + ratio), least_share);
+        part.local_element(f)       = s;
+        other_part.local_element(f) = std::min(1 / (1 + ratio), 1 - least_share);
+        weights.local_element(f)    = domain.face_mass[f] * (is_idle[f] ? idle * s : s);
       }
     part.update_ghost_values();
     weights.update_ghost_values();
+    other_part.update_ghost_values();
     for (LocalIndex f = 0; f < mesh.face_cells.size(); ++f)
       {
         share.push_back(part.local_element(f));
+        rest.push_back(other_part.local_element(f));
         weight.push_back(weights.local_element(f));
       }
     stiff = system.assemble(NodeSystem<dim>::Mass::faces, stiffness, weight);
@@ -116,8 +119,8 @@ namespace treacle
     old_u.update_ghost_values();
     for (LocalIndex f = 0; f < system.domain.mesh.n_owned_faces(); ++f)
       if (system.domain.is_liquid_face(f))
-        state.u.local_element(f) +=
-          share[f] * (face_velocity(system.domain.mesh, state.v, f) - state.u.local_element(f));
+        state.u.local_element(f) = rest[f] * state.u.local_element(f) +
+                                   share[f] * face_velocity(system.domain.mesh, state.v, f);
     state.u.update_ghost_values();
     if (reactions != nullptr)
       {

@@ -49,6 +49,8 @@ namespace treacle
 
     const NodeSystem<dim>               &system;
     std::vector<double>                  share; ///< s of each face, owned or ghost
+    /// 1 - s, of which nothing is left where viscosity spreads over 1e8 leaves in a step, unless it is found by itself.
+    std::vector<double>                  rest;
     typename NodeSystem<dim>::Assembled  stiff; ///< K + P^T s M P
 
   private:
