@@ -175,8 +175,7 @@ namespace treacle
     // at the centroid the flux of a rigid motion is exact, and what the held parts of
     // a cell's faces carry balances but for the area between them
     const Point<dim> centre = negative_centroid<dim>(x, held);
-    const bool       in_emitter =
-      scene.emitter_distance(centre, time) < scene.solid_distance(centre, time);
+    const bool       in_emitter = scene.is_emitter_nearest(centre, time);
     if (mesh.face_side[f] == Mesh<dim>::no_side)
       {
         solid_velocity[f] = (in_emitter ? scene.emitter_velocity(centre, time) :

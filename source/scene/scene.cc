@@ -256,6 +256,14 @@ namespace treacle
 
   template <int dim>
   bool
+  Scene<dim>::is_emitter_nearest(const Point<dim> &x, const double t) const
+  {
+    const double distance = this->emitter_distance(x, t);
+    return distance < far_away && distance < this->solid_distance(x, t);
+  }
+
+  template <int dim>
+  bool
   Scene<dim>::has_advected_material() const
   {
     return transport == MaterialTransport::advected;

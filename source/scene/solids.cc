@@ -77,17 +77,15 @@ namespace treacle
   Tensor<1, dim>
   Solids<dim>::solid_velocity(const Point<dim> &x, const double t) const
   {
-    const auto distance = [&](const Solid<dim> &solid) {
-      return solid.signed_distance(x, t);
-    };
-    return solids.empty() ? Tensor<1, dim>() :
-                            nearest(solids, distance).first->velocity(x, t);
+    return has_moving_solids() ? solids[nearest_solid(x, t)].velocity(x, t) : Tensor<1, dim>();
   }
 
   template <int dim>
   unsigned int
   Solids<dim>::nearest_solid(const Point<dim> &x, const double t) const
   {
+    if (solids.size() == 1)
+      return 0;
     const auto distance = [&](const Solid<dim> &solid) {
       return solid.signed_distance(x, t);
     };

@@ -4,17 +4,27 @@
 #include <treacle/solvers/matrix_rows.h>
 
 #include <Epetra_CrsMatrix.h>
+#include <Epetra_Vector.h>
 
 namespace treacle
 {
   void
+  get_diagonal(const TrilinosWrappers::SparseMatrix &matrix, Vector &diagonal)
+  {
+    const Epetra_CrsMatrix &m = matrix.trilinos_matrix();
+    AssertDimension(diagonal.locally_owned_size(), m.NumMyRows());
+    Epetra_Vector view(View, m.RowMap(), diagonal.begin());
+    AssertThrow(m.ExtractDiagonalCopy(view) == 0, ExcMessage("A matrix has no diagonal."));
+  }
+
+  void
   MatrixRows::append(const MatrixRow &row)
   {
-    for (const auto &[column, value] : row)
-      {
-        columns.push_back(column);
-        values.push_back(value);
-      }
+    const std::size_t n = columns.size();
+    columns.resize(n + row.size());
+    values.resize(n + row.size());
+    for (std::size_t k = 0; k < row.size(); ++k)
+      std::tie(columns[n + k], values[n + k]) = row[k];
     lengths.push_back(row.size());
   }
 

@@ -24,9 +24,13 @@ namespace treacle
     std::vector<LocalIndex>     columns; ///< nodes, that of the row first
     std::vector<Tensor<2, dim>> blocks;
     Tensor<1, dim>              force; ///< of walls in cut cells and of springs
-    /// Columns of the numbering, ascending, and places in the list of columns.
-    std::vector<std::pair<LocalIndex, unsigned int>> order;
-    MatrixRow                                        entries; ///< scratch, of one component
+    struct Column
+    {
+      LocalIndex   number; ///< in the numbering
+      unsigned int place;  ///< in the list of columns
+    };
+    std::vector<Column> order;   ///< ascending
+    MatrixRow           entries; ///< scratch, of one component
 
     void
     start(const LocalIndex node)
@@ -56,8 +60,10 @@ namespace treacle
     {
       order.clear();
       for (unsigned int k = 0; k < columns.size(); ++k)
-        order.emplace_back(column[columns[k]], k);
-      std::sort(order.begin(), order.end());
+        order.push_back({column[columns[k]], k});
+      std::sort(order.begin(), order.end(), [](const Column &a, const Column &b) {
+        return a.number < b.number;
+      });
     }
 
   private:
@@ -156,31 +162,33 @@ namespace treacle
                           Vector             &shift,
                           MatrixRows         &matrix) const
   {
-    const auto is_constrained = [&](const LocalIndex node, const unsigned int d) {
-      return (domain.constrained[node] >> d & 1) != 0;
-    };
     const LocalIndex node = row.columns[0];
     row.sort(numbering.column);
     for (unsigned int a = 0; a < dim; ++a)
       {
         // 1 for a component that nothing holds, lest the matrix be singular
-        const double diagonal = row.blocks[0][a][a] > 0 ? row.blocks[0][a][a] : 1;
+        double &diagonal = row.blocks[0][a][a];
+        diagonal         = diagonal > 0 ? diagonal : 1;
         row.entries.clear();
-        if (is_constrained(node, a))
-          row.entries.emplace_back(dim * i + a, diagonal);
-        else
-          shift.local_element(dim * i + a) += row.force[a];
-        for (unsigned int k = 0; k < row.order.size() && !is_constrained(node, a); ++k)
-          for (unsigned int b = decoupled ? a : 0; b < (decoupled ? a + 1 : dim); ++b)
-            {
-              const auto &[column, place] = row.order[k];
-              const LocalIndex other      = row.columns[place];
-              const double     value      = row.blocks[place][a][b];
-              if (is_constrained(other, b))
-                shift.local_element(dim * i + a) -= value * domain.prescribed[other][b];
+        if (domain.constrained[node] >> a & 1)
+          {
+            row.entries.emplace_back(dim * i + a, diagonal);
+            matrix.append(row.entries);
+            continue;
+          }
+        shift.local_element(dim * i + a) += row.force[a];
+        const unsigned int first = decoupled ? a : 0, end = decoupled ? a + 1 : dim;
+        for (const auto &[number, place] : row.order)
+          {
+            const LocalIndex      other = row.columns[place];
+            const unsigned int    held  = domain.constrained[other];
+            const Tensor<1, dim> &line  = row.blocks[place][a];
+            for (unsigned int b = first; b < end; ++b)
+              if (held >> b & 1)
+                shift.local_element(dim * i + a) -= line[b] * domain.prescribed[other][b];
               else
-                row.entries.emplace_back(dim * column + b, place == 0 && a == b ? diagonal : value);
-            }
+                row.entries.emplace_back(dim * number + b, line[b]);
+          }
         matrix.append(row.entries);
       }
   }

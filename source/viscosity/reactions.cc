@@ -190,9 +190,7 @@ namespace treacle
   unsigned int
   Reactions<dim>::holder(const Point<dim> &x) const
   {
-    return domain.scene.emitter_distance(x, time) < domain.scene.solid_distance(x, time) ?
-             none :
-             domain.scene.nearest_solid(x, time);
+    return domain.scene.is_emitter_nearest(x, time) ? none : domain.scene.nearest_solid(x, time);
   }
 
   template <int dim>

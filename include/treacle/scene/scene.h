@@ -102,6 +102,10 @@ namespace treacle
     const Material<dim> &
     initial_material(const Point<dim> &x) const;
 
+    /// Is an emitter at work nearer than the solids are?
+    bool
+    is_emitter_nearest(const Point<dim> &x, const double t) const;
+
     /// Are density and viscosity carried along with the liquid?
     bool
     has_advected_material() const;
