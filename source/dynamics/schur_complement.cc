@@ -3,7 +3,6 @@
 
 #include <treacle/base/maximum.h>
 #include <treacle/dynamics/schur_complement.h>
-#include <treacle/solvers/matrix_rows.h>
 
 namespace treacle
 {
@@ -96,12 +95,9 @@ namespace treacle
   Vector
   SchurComplement<dim>::inverse_diagonal() const
   {
-    Vector result(z_projection), other(z_projection);
-    get_diagonal(pressure.projection(), result);
-    get_diagonal(*viscous, other);
-    std::transform(result.begin(), result.end(), other.begin(), result.begin(), [](const double a, const double b) {
-      return 1 / a + 1 / b;
-    });
+    Vector result(z_projection);
+    for (const GlobalIndex row : pressure.rows())
+      result(row) = 1 / pressure.projection().diag_element(row) + 1 / viscous->diag_element(row);
     return result;
   }
 

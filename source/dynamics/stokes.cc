@@ -6,7 +6,6 @@
 #include <treacle/dynamics/stokes.h>
 #include <treacle/fields/face_node.h>
 #include <treacle/solvers/conjugate_residuals.h>
-#include <treacle/solvers/matrix_rows.h>
 
 namespace treacle
 {
@@ -67,9 +66,8 @@ namespace treacle
     , outflow(pressure.rows(), domain.mesh.communicator())
   {
     diagonal_inverse.block(0).reinit(hybrid.stiff.shift, true);
-    get_diagonal(*hybrid.stiff.matrix, diagonal_inverse.block(0));
-    for (double &entry : diagonal_inverse.block(0))
-      entry = 1 / entry;
+    for (const GlobalIndex row : hybrid.stiff.shift.locally_owned_elements())
+      diagonal_inverse.block(0)(row) = 1 / hybrid.stiff.matrix->diag_element(row);
     diagonal_inverse.block(1) = schur_complement.inverse_diagonal();
   }
 

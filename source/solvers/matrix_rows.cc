@@ -4,19 +4,9 @@
 #include <treacle/solvers/matrix_rows.h>
 
 #include <Epetra_CrsMatrix.h>
-#include <Epetra_Vector.h>
 
 namespace treacle
 {
-  void
-  get_diagonal(const TrilinosWrappers::SparseMatrix &matrix, Vector &diagonal)
-  {
-    const Epetra_CrsMatrix &m = matrix.trilinos_matrix();
-    AssertDimension(diagonal.locally_owned_size(), m.NumMyRows());
-    Epetra_Vector view(View, m.RowMap(), diagonal.begin());
-    AssertThrow(m.ExtractDiagonalCopy(view) == 0, ExcMessage("A matrix has no diagonal."));
-  }
-
   void
   MatrixRows::append(const MatrixRow &row)
   {

@@ -13,10 +13,6 @@ namespace treacle
   /// Columns and values.
   using MatrixRow = std::vector<std::pair<unsigned int, double>>;
 
-  /// Of a matrix: by its rows, where deal.II searches each for its diagonal entry.
-  void
-  get_diagonal(const TrilinosWrappers::SparseMatrix &matrix, Vector &diagonal);
-
   /// A square sparse matrix in the making, each row whole on the rank that owns it. Columns are
   /// local: this rank's rows, then those of others that it knows. What deal.II offers looks up
   /// and sorts each global index.
