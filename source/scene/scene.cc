@@ -252,8 +252,6 @@ namespace treacle
       .first->material;
   }
 
-
-
   template <int dim>
   bool
   Scene<dim>::is_emitter_nearest(const Point<dim> &x, const double t) const

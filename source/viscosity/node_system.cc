@@ -24,13 +24,9 @@ namespace treacle
     std::vector<LocalIndex>     columns; ///< nodes, that of the row first
     std::vector<Tensor<2, dim>> blocks;
     Tensor<1, dim>              force; ///< of walls in cut cells and of springs
-    struct Column
-    {
-      LocalIndex   number; ///< in the numbering
-      unsigned int place;  ///< in the list of columns
-    };
-    std::vector<Column> order;   ///< ascending
-    MatrixRow           entries; ///< scratch, of one component
+    /// Columns of the numbering, ascending, and places in the list of columns.
+    std::vector<std::pair<LocalIndex, unsigned int>> order;
+    MatrixRow                                        entries; ///< scratch, of one component
 
     void
     start(const LocalIndex node)
@@ -60,10 +56,8 @@ namespace treacle
     {
       order.clear();
       for (unsigned int k = 0; k < columns.size(); ++k)
-        order.push_back({column[columns[k]], k});
-      std::sort(order.begin(), order.end(), [](const Column &a, const Column &b) {
-        return a.number < b.number;
-      });
+        order.emplace_back(column[columns[k]], k);
+      std::sort(order.begin(), order.end());
     }
 
   private:
@@ -178,7 +172,7 @@ namespace treacle
           }
         shift.local_element(dim * i + a) += row.force[a];
         const unsigned int first = decoupled ? a : 0, end = decoupled ? a + 1 : dim;
-        for (const auto &[number, place] : row.order)
+        for (const auto &[column, place] : row.order)
           {
             const LocalIndex      other = row.columns[place];
             const unsigned int    held  = domain.constrained[other];
@@ -187,7 +181,7 @@ namespace treacle
               if (held >> b & 1)
                 shift.local_element(dim * i + a) -= line[b] * domain.prescribed[other][b];
               else
-                row.entries.emplace_back(dim * number + b, line[b]);
+                row.entries.emplace_back(dim * column + b, line[b]);
           }
         matrix.append(row.entries);
       }
