@@ -8,8 +8,9 @@ from math import cos, exp, pi, sin, sqrt
 import numpy
 
 from treacle.verification.cases import EULER, FIRST_PROJECTION, SPLIT, Case, Program
-from treacle.verification.measures import (at, coil_radius, front, height, interpolated, last,
-                                           surface_rate, turning, wave)
+from treacle.verification.measures import (at, coil_radius, decay_and_frequency, decay_rate, front, height,
+                                           interpolated, last, surface_rate, turning, wave)
+from treacle.verification.small_waves import wave_from_rest
 
 RIGHT = "Liquid maximum x (m)"
 SHALLOW = {"Domain/Upper corner": "1, 1", "Mesh/Root cells": "2",
@@ -25,9 +26,20 @@ THIN = {"Material/Viscosity": "0.005", "End time": "8"}
 LAYERS = {"Material/Viscosity": "if(y < 0.53, 1e6, 1e4)", "End time": "4e4", "Frame interval": "2e3"}
 
 
-def wave_case(start, end, rate, frequency):
-    decay, turning = wave(pi, start, end)
-    return {"rate": (decay, rate), "frequency": (turning, frequency)}
+def exact_amplitudes(k, depth, nu, start, end, interval):
+    """Times of frames and the amplitudes then."""
+    times = start + interval * numpy.arange(round((end - start) / interval) + 1)
+    return times, wave_from_rest(k, depth, nu, times)
+
+
+def relaxing(k, depth, nu, start, end, interval):
+    """What is measured in these frames, and the same of the exact amplitudes."""
+    return {"rate": (surface_rate(k, start, end), decay_rate(*exact_amplitudes(k, depth, nu, start, end, interval)))}
+
+
+def waving(nu, start, end):
+    exact = decay_and_frequency(*exact_amplitudes(pi, 1, nu, start, end, 0.1))
+    return dict(zip(("rate", "frequency"), zip(wave(pi, start, end), exact)))
 
 
 def kept(column):
@@ -86,8 +98,7 @@ KEPT, KEPT_3D = ({"angular momentum": (kept(f"Angular momentum {axis}(kg m^2/s)"
                   "kinetic energy": (kept("Kinetic energy (J)"), 1)} for axis in ("", "z "))
 FLIGHT = {"front": (last(RIGHT), 2.2), "kinetic energy": (kept("Kinetic energy (J)"), 1)}
 AT_REST = {"speed at the end (m/s)": (last("Maximum speed (m/s)"), 0)}
-WAVE = wave_case(1, 6, 0.575442182, 1.47245435)
-THIN_WAVE = wave_case(1, 8, 0.0879152071, 1.75697276)
+WAVE, THIN_WAVE = waving(0.05, 1, 6), waving(0.005, 1, 8)
 DROP = {f"{name}, t = {t}": (half_axis(axis, t), exact[i]) for t, *exact in AXES
         for i, (name, axis) in enumerate((("minor", "x"), ("major", "y")))}
 PULL = {"force": (last("Walls force y (N)"), 4 * 10 * 0.6 * exp(-0.08))}
@@ -126,13 +137,10 @@ FREE_SURFACE_CASES = {
     "C2 flight": case("flight_2d", 4, 0.1875, FLIGHT, order=None),
     "C2 rotation": case("rigid_rotation_2d", 4, 0.02, KEPT, in_time=({},)),
     "C2 rotation 3D": case("rigid_rotation", 4, 0.02, KEPT_3D, GRADED, n_levels=2),
-    "C3 k pi, h 1, nu 1": case("relaxation", 2, 0.1, {"rate": (surface_rate(pi, 1), 0.145546628)},
-                               in_time=({},)),
-    "C3 k pi, h 0.5, nu 1": case("relaxation", 2, 0.1,
-                                 {"rate": (surface_rate(pi, 1), 0.076507535)}, SHALLOW,
+    "C3 k pi, h 1, nu 1": case("relaxation", 2, 0.1, relaxing(pi, 1, 1, 1, 4, 0.2), in_time=({},)),
+    "C3 k pi, h 0.5, nu 1": case("relaxation", 2, 0.1, relaxing(pi, 0.5, 1, 1, 4, 0.2), SHALLOW,
                                  in_time=({}, EULER)),
-    "C3 k 2 pi, h 0.5, nu 0.1": case("relaxation", 2, 0.05,
-                                     {"rate": (surface_rate(2 * pi, 0.5), 0.828245658)}, SHORT,
+    "C3 k 2 pi, h 0.5, nu 0.1": case("relaxation", 2, 0.05, relaxing(2 * pi, 0.5, 0.1, 0.5, 2, 0.1), SHORT,
                                      in_time=({},)),
     "C3 layers": case("relaxation", 3, 2000, {"rate": (surface_rate(pi, 4000), 0.0711855776e-4)}, LAYERS),
     "C4 nu 0.05": case("wave", 2, 0.1, WAVE, in_time=({}, EULER)),

@@ -110,24 +110,30 @@ def amplitudes(results, k, start=0, end=math.inf):
     return times, numpy.array([amplitude(results.points(t), k) for t in times])
 
 
+def decay_rate(times, a):
+    """The slope of a line through the logarithms of amplitudes."""
+    return -numpy.polyfit(times, numpy.log(abs(a)), 1)[0]
+
+
 def surface_rate(k, start=0, end=math.inf):
     """The decay rate of the mode cos(k x) of the surface."""
-    def value(results):
-        times, a = amplitudes(results, k, start, end)
-        return -numpy.polyfit(times, numpy.log(abs(a)), 1)[0]
-    return value
+    return lambda results: decay_rate(*amplitudes(results, k, start, end))
+
+
+def decay_and_frequency(times, a):
+    """Of a wave's amplitudes: a real pair of roots fits a(t + d) + p a(t) + q a(t - d) = 0 best, for the
+    longest d that resolves the wave."""
+    d = max(1, round(0.6 / (times[1] - times[0])))
+    known = numpy.stack([a[d:-d], a[:-2 * d]], axis=1)
+    p, q = numpy.linalg.lstsq(known, -a[2 * d:], rcond=None)[0]
+    root = numpy.log(numpy.roots([1, p, q]).astype(complex)[0]) / (d * (times[1] - times[0]))
+    return -root.real, abs(root.imag)
 
 
 def wave(k, start=0, end=math.inf):
-    """Decay rate and angular frequency of the mode cos(k x): a real pair of roots fits
-    a(t + d) + p a(t) + q a(t - d) = 0 best, for the longest d that resolves the wave."""
+    """Decay rate and angular frequency of the mode cos(k x)."""
     def fit(results):
-        times, a = amplitudes(results, k, start, end)
-        d = max(1, round(0.6 / (times[1] - times[0])))
-        known = numpy.stack([a[d:-d], a[:-2 * d]], axis=1)
-        p, q = numpy.linalg.lstsq(known, -a[2 * d:], rcond=None)[0]
-        root = numpy.log(numpy.roots([1, p, q]).astype(complex)[0]) / (d * (times[1] - times[0]))
-        return -root.real, abs(root.imag)
+        return decay_and_frequency(*amplitudes(results, k, start, end))
     return lambda results: fit(results)[0], lambda results: fit(results)[1]
 
 
