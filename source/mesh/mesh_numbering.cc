@@ -5,7 +5,8 @@
 #include <treacle/mesh/mesh_numbering.h>
 
 #include <deal.II/grid/reference_cell.h>
-#include <deal.II/grid/tria.h>
+
+#include <numeric>
 
 namespace treacle
 {
@@ -38,26 +39,63 @@ namespace treacle
       return result;
     }
 
-    /// In their order in deal.II's triangulation, which finds them and is gone then.
+    /// A face of a cell.
+    template <int dim>
+    struct CellFace
+    {
+      std::array<unsigned int, dim> vertices; ///< in ascending order
+      unsigned int                  cell, place; ///< in deal.II's order
+
+      bool
+      operator<(const CellFace &other) const
+      {
+        return vertices < other.vertices;
+      }
+    };
+
+    template <int dim, typename Visit>
+    void
+    for_each_face(const MeshCells<dim> &mesh, const Visit &visit)
+    {
+      std::array<unsigned int, dim + 1> opposite;
+      for (unsigned int f = 0; f <= dim; ++f)
+        opposite[f] = opposite_vertex<dim>(f);
+      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+        {
+          auto vertices = mesh.cells[c].vertex;
+          std::sort(vertices.begin(), vertices.end());
+          for (unsigned int f = 0; f <= dim; ++f)
+            {
+              CellFace<dim> face{{}, c, f};
+              std::remove_copy(
+                vertices.begin(), vertices.end(), face.vertices.begin(), mesh.cells[c].vertex[opposite[f]]);
+              visit(face);
+            }
+        }
+    }
+
+    /// Numbers of faces, in deal.II's order; those with the same vertices are one. They are sorted by their lowest vertex
+    /// first, for then few at a time are left to sort: deal.II's triangulation, which sorts all of them twice, and all
+    /// lines, takes ten times as long.
     template <int dim>
     ThingsOfCells<dim>
     faces_of_cells(const MeshCells<dim> &mesh)
     {
+      std::vector<unsigned int> end(mesh.vertices.size() + 1, 0);
+      for_each_face(mesh, [&](const auto &face) { ++end[face.vertices[0] + 1]; });
+      std::partial_sum(end.begin(), end.end(), end.begin());
+      const std::vector<unsigned int> begin = end;
+      std::vector<CellFace<dim>>      faces(end.back());
+      for_each_face(mesh, [&](const auto &face) { faces[end[face.vertices[0]]++] = face; });
+      for (unsigned int v = 0; v + 1 < begin.size(); ++v)
+        std::sort(faces.begin() + begin[v], faces.begin() + begin[v + 1]);
       ThingsOfCells<dim> result(mesh.cells.size());
-      if (mesh.cells.empty()) // deal.II knows no triangulation without a cell
-        return result;
-      std::vector<Point<dim>> vertices;
-      vertices.reserve(mesh.vertices.size());
-      for (const auto &vertex : mesh.vertices)
-        vertices.push_back(vertex.position);
-      std::vector<CellData<dim>> cells(mesh.cells.size());
-      for (unsigned int i = 0; i < cells.size(); ++i)
-        cells[i].vertices.assign(mesh.cells[i].vertex.begin(), mesh.cells[i].vertex.end());
-      Triangulation<dim> triangulation;
-      triangulation.create_triangulation(vertices, cells, SubCellData());
-      for (const auto &cell : triangulation.active_cell_iterators())
-        for (unsigned int f = 0; f <= dim; ++f)
-          result[cell->index()][f] = cell->face_index(f);
+      unsigned int       n = 0;
+      for (unsigned int k = 0; k < faces.size(); ++k)
+        {
+          n += k > 0 && faces[k - 1] < faces[k];
+          result[faces[k].cell][faces[k].place] = n;
+        }
       return result;
     }
 
