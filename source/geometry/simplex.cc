@@ -61,23 +61,6 @@ namespace treacle
 
 
 
-  template <int dim>
-  VertexValues<dim>
-  barycentric_coordinates(const Simplex<dim> &x, const Point<dim> &p)
-  {
-    const auto        g = basis_gradients<dim>(x);
-    VertexValues<dim> lambda;
-    lambda[0] = 1;
-    for (unsigned int i = 1; i <= dim; ++i)
-      {
-        lambda[i] = g[i] * (p - x[0]);
-        lambda[0] -= lambda[i];
-      }
-    return lambda;
-  }
-
-
-
   // The gradients are the basis dual to the edges x_i - x_0, so they invert
   // the linear system of the dual centre.
   template <int dim>
@@ -109,8 +92,6 @@ namespace treacle
   template double                              signed_volume<dim>(const Simplex<dim> &); \
   template std::array<Tensor<1, dim>, dim + 1> basis_gradients<dim>(                     \
     const Simplex<dim> &);                                                               \
-  template VertexValues<dim> barycentric_coordinates<dim>(const Simplex<dim> &,          \
-                                                          const Point<dim> &);           \
   template Point<dim>        weighted_circumcentre<dim>(const Simplex<dim> &,            \
                                                  const VertexValues<dim> &);      \
   template Tensor<1, dim>    area_vector<dim>(const std::array<Point<dim>, dim> &);

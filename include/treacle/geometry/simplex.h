@@ -39,7 +39,28 @@ namespace treacle
   /// Barycentric coordinates of @p p; all are in [0,1] inside.
   template <int dim>
   VertexValues<dim>
-  barycentric_coordinates(const Simplex<dim> &x, const Point<dim> &p);
+  barycentric_coordinates(const Simplex<dim> &x, const Point<dim> &p)
+  {
+    const Tensor<1, dim> a = x[1] - x[0], b = x[2] - x[0], r = p - x[0];
+    VertexValues<dim>    lambda;
+    if constexpr (dim == 2)
+      {
+        const double scale = 1 / (a[0] * b[1] - a[1] * b[0]);
+        lambda[1]          = scale * (r[0] * b[1] - r[1] * b[0]);
+        lambda[2]          = scale * (a[0] * r[1] - a[1] * r[0]);
+        lambda[0]          = 1 - lambda[1] - lambda[2];
+      }
+    else
+      {
+        const Tensor<1, dim> c = x[3] - x[0], bc = cross_product_3d(b, c), ra = cross_product_3d(r, a);
+        const double         scale = 1 / (a * bc);
+        lambda[1]                  = scale * (r * bc);
+        lambda[2]                  = -scale * (ra * c);
+        lambda[3]                  = scale * (ra * b);
+        lambda[0]                  = 1 - lambda[1] - lambda[2] - lambda[3];
+      }
+    return lambda;
+  }
 
   /// The dual centre o, `2 (x_i-x_0)·o = |x_i|^2 - w_i - |x_0|^2 + w_0`
   /// (w in m^2); without weights the circumcentre.

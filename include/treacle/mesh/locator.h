@@ -58,8 +58,7 @@ namespace treacle
             std::min_element(location.lambda.begin(), location.lambda.end());
           if (*least > -1e-12)
             return location;
-          const auto &sides = mesh.face_cells[mesh.cell_faces[cell][least - location.lambda.begin()]];
-          cell              = sides[sides[0] == cell];
+          cell = mesh.cell_neighbours[cell][least - location.lambda.begin()];
         }
       return locate(x);
     }
@@ -103,11 +102,8 @@ namespace treacle
     Location<dim>
     in_cell(const LocalIndex cell, const Point<dim> &x) const
     {
-      const Point<dim> &origin = mesh.node_position[mesh.cell_nodes[cell][0]];
-      Location<dim>     result{cell, x, {}};
-      for (unsigned int i = 0; i <= dim; ++i)
-        result.lambda[i] = (i == 0 ? 1. : 0.) + mesh.cell_gradients[cell][i] * (x - origin);
-      return result;
+      // gradients would be at hand, but there are five times as many cells as nodes, and what counts here is memory
+      return {cell, x, barycentric_coordinates<dim>(mesh.cell_vertices(cell), x)};
     }
 
     const Mesh<dim>                &mesh;
