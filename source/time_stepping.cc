@@ -54,6 +54,24 @@ namespace treacle
       return comes_of(now) || comes_of(now - before);
     }
 
+    /// Is the surface to move again, by half a step?
+    template <int dim>
+    bool
+    is_bad(const typename Transport<dim>::Info &info)
+    {
+      return std::abs(info.drift) > largest_drift || info.swallowed > most_swallowed;
+    }
+
+    /// Does half a step help too little? What is lost at the same rate, as where a solid goes through the surface, is lost
+    /// in two halves too.
+    template <int dim>
+    bool
+    is_no_better(const typename Transport<dim>::Info &half, const typename Transport<dim>::Info &whole)
+    {
+      return std::abs(half.drift) > worth_halving * std::abs(whole.drift) ||
+             (std::abs(whole.drift) <= largest_drift && half.swallowed > worth_halving * whole.swallowed);
+    }
+
     /// The liquid where it is, with another velocity.
     template <int dim>
     Liquid<dim>
@@ -183,16 +201,13 @@ namespace treacle
         moving, difference, volume, is_long() ? largest_loss * volume : std::numeric_limits<double>::max());
     };
     auto moved = transported(liquid);
-    const auto is_bad = [](const typename Transport<dim>::Info &info) {
-      return std::abs(info.drift) > largest_drift || info.swallowed > most_swallowed;
-    };
-    while (!moved || (is_bad(*moved) && is_long()))
+    while (!moved || (is_bad<dim>(*moved) && is_long()))
       {
         const BackwardDifference whole = difference;
         difference                     = BackwardDifference(0.5 * whole.dt, *old.state);
         Liquid<dim> half               = old;
         auto        half_moved         = transported(half);
-        if (moved && half_moved && std::abs(half_moved->drift) > worth_halving * std::abs(moved->drift))
+        if (moved && half_moved && is_no_better<dim>(*half_moved, *moved))
           {
             difference = whole;
             break;

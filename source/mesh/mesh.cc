@@ -210,13 +210,6 @@ namespace treacle
             fill_face(f, c, i);
         }
     agree_on_ghost_faces();
-    mesh.cell_neighbours.resize(mesh.cell_faces.size());
-    for (LocalIndex c = 0; c < mesh.cell_faces.size(); ++c)
-      for (unsigned int i = 0; i <= dim; ++i)
-        {
-          const auto &sides          = mesh.face_cells[mesh.cell_faces[c][i]];
-          mesh.cell_neighbours[c][i] = sides[sides[0] == c];
-        }
   }
 
   template <int dim>

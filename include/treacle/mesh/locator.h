@@ -33,8 +33,16 @@ namespace treacle
     /// @p covering: boxes around the cells that this rank owns, or whose leaves it does. Collective.
     Locator(const Mesh<dim> &mesh, const std::vector<BoundingBox<dim>> &covering)
       : mesh(mesh)
+      , neighbours(mesh.cell_faces)
       , boxes(Utilities::MPI::all_gather(mesh.communicator(), covering))
-    {}
+    {
+      for (LocalIndex cell = 0; cell < neighbours.size(); ++cell)
+        for (LocalIndex &k : neighbours[cell])
+          {
+            const auto &sides = mesh.face_cells[k];
+            k                 = sides[sides[0] == cell];
+          }
+    }
 
     Locator(const Locator &) = delete;
 
@@ -58,7 +66,7 @@ namespace treacle
             std::min_element(location.lambda.begin(), location.lambda.end());
           if (*least > -1e-12)
             return location;
-          cell = mesh.cell_neighbours[cell][least - location.lambda.begin()];
+          cell = neighbours[cell][least - location.lambda.begin()];
         }
       return locate(x);
     }
@@ -110,6 +118,8 @@ namespace treacle
     mutable std::vector<LocalIndex> candidates;
 
   private:
+    /// Of each cell, opposite its nodes; invalid on the box, and beyond the ghost layer.
+    std::vector<std::array<LocalIndex, dim + 1>>     neighbours;
     const std::vector<std::vector<BoundingBox<dim>>> boxes; ///< of ranks
   };
 } // namespace treacle

@@ -97,8 +97,6 @@ namespace treacle
     // -- cells --
     std::vector<std::array<LocalIndex, dim + 1>>     cell_nodes;
     std::vector<std::array<LocalIndex, dim + 1>>     cell_faces; ///< face i is opposite node i
-    /// Beyond face i; invalid on the box, and beyond the ghost layer.
-    std::vector<std::array<LocalIndex, dim + 1>>     cell_neighbours;
     std::vector<double>                              cell_volume;
     std::vector<GlobalIndex>                         cell_number; ///< in an order that no partition changes
     std::vector<double>                              cell_size; ///< edge of the leaf it stands on (m)
