@@ -87,10 +87,19 @@ namespace treacle
         upper[d] += reach;
       }
     grid.for_each(lower, upper, [&](const LatticePoint<dim> &cube) {
-      if (const auto found = cubes.find(pack<dim>(cube)); found != cubes.end())
-        for (unsigned int k = found->second.first; k < found->second.second; ++k)
-          if ((all[k].marker.position - x).norm_square() < reach * reach)
-            result.push_back(&all[k]);
+      const auto found = cubes.find(pack<dim>(cube));
+      if (found == cubes.end())
+        return;
+      // without branches: which ones are near enough cannot be foreseen
+      const auto [begin, end] = found->second;
+      std::size_t n           = result.size();
+      result.resize(n + end - begin);
+      for (unsigned int k = begin; k < end; ++k)
+        {
+          result[n] = &all[k];
+          n += (all[k].marker.position - x).norm_square() < reach * reach;
+        }
+      result.resize(n);
     });
   }
 
