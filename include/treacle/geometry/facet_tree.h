@@ -46,12 +46,16 @@ namespace treacle
             radius = visit(order[k]);
           if (node.begin < node.end)
             continue;
-          Entry near = {entry.node + 1, squared_distance(nodes[entry.node + 1], x)};
-          Entry far  = {node.second, squared_distance(nodes[node.second], x)};
-          if (far.squared_distance < near.squared_distance)
-            std::swap(near, far);
-          stack[n++] = far;
-          stack[n++] = near;
+          // without branches: which one is nearer cannot be foreseen
+          const std::array<Entry, 2> children = {
+            {{entry.node + 1, squared_distance(nodes[entry.node + 1], x)},
+             {node.second, squared_distance(nodes[node.second], x)}}};
+          const bool far = children[0].squared_distance <= children[1].squared_distance;
+          for (const bool k : {far, !far})
+            {
+              stack[n] = children[k];
+              n += children[k].squared_distance <= radius * radius;
+            }
         }
     }
 
