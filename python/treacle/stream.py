@@ -10,22 +10,35 @@ import numpy
 from treacle.errors import DataError
 
 
-def centre_of_cut(surface, height):
-    """Where the plane z = height (m) cuts the triangles of a Surface: the mean (x, y) of the
-    curve by length, in m, or None where there is no cut."""
+def cut(surface, height):
+    """Where the plane z = height (m) cuts the triangles of a Surface: segments, as (x, y) of their ends (m, n x 2 each)."""
     corners = surface.points[surface.facets]
     above = corners[:, :, 2] >= height
     corners, above = (a[above.any(axis=1) != above.all(axis=1)] for a in (corners, above))
-    lengths, middles = [], []
+    ends = []
     for i in range(3):  # the corner alone on its side of the plane
         alone = (above[:, i] != above[:, i - 1]) & (above[:, i] != above[:, i - 2])
         a, b, c = (corners[alone][:, i - k] for k in range(3))
-        ends = [a + ((height - a[:, 2]) / (other[:, 2] - a[:, 2]))[:, None] * (other - a)
-                for other in (b, c)]
-        lengths.append(numpy.linalg.norm(ends[1] - ends[0], axis=1))
-        middles.append((ends[0] + ends[1])[:, :2] / 2)
-    lengths, middles = numpy.concatenate(lengths), numpy.concatenate(middles)
-    return lengths @ middles / lengths.sum() if lengths.any() else None
+        ends.append([(a + ((height - a[:, 2]) / (other[:, 2] - a[:, 2]))[:, None] * (other - a))[:, :2]
+                     for other in (b, c)])
+    return tuple(numpy.concatenate(side) for side in zip(*ends))
+
+
+def centre_of_cut(surface, height):
+    """Of the curve in which the plane z = height (m) cuts a Surface: the mean (x, y) by length, in m, or None
+    where there is no cut."""
+    a, b = cut(surface, height)
+    lengths = numpy.linalg.norm(b - a, axis=1)
+    return lengths @ (a + b) / 2 / lengths.sum() if lengths.any() else None
+
+
+def area_of_cut(surface, height):
+    """Inside that curve (m^2), of which all can be seen from its centre; 0 where there is no cut."""
+    a, b = cut(surface, height)
+    if len(a) == 0:
+        return 0.
+    a, b = (end - centre_of_cut(surface, height) for end in (a, b))
+    return abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2
 
 
 def track(run, height, start=0, end=math.inf):

@@ -15,7 +15,7 @@ from synthetic_run import write_run
 from treacle import DataError, Run, read_parameters, read_statistics, read_surface, read_timing
 from treacle.layers import problems
 from treacle.mesh import Mesh
-from treacle.stream import centre_of_cut, coiling, folding
+from treacle.stream import area_of_cut, centre_of_cut, coiling, folding
 from treacle.sweep import Scene, Verdict
 
 
@@ -175,6 +175,17 @@ class StreamTest(InDirectory):
         surface.facets = numpy.array([[0, 1, 2]])
         numpy.testing.assert_allclose(centre_of_cut(surface, 1), [0.5, 1])
         self.assertIsNone(centre_of_cut(surface, 3))
+        self.assertEqual(area_of_cut(surface, 3), 0)
+
+    def test_area(self):
+        """Of a tube, an octagon with corners at distance 1 from (3, 4)."""
+        angles = numpy.arange(8) * math.pi / 4
+        ring = numpy.stack([3 + numpy.cos(angles), 4 + numpy.sin(angles), numpy.zeros(8)], axis=1)
+        surface = read_surface(self.run_path / "frames/surface_00000.ply")
+        surface.points = numpy.concatenate([ring, ring + [0, 0, 1]])
+        surface.facets = numpy.array([[k, (k + 1) % 8, k + 8] for k in range(8)] +
+                                     [[(k + 1) % 8, (k + 1) % 8 + 8, k + 8] for k in range(8)])
+        self.assertAlmostEqual(area_of_cut(surface, 0.3), 2 * math.sqrt(2))
 
     def test_coiling_and_folding(self):
         times = numpy.linspace(0, 1, 101)

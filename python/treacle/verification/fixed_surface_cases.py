@@ -99,4 +99,7 @@ CLOSED_CASES = {
     "B8 velocity error": Case("sphere_drag", 5, 1e-3, DRAG, BY_VELOCITY, order=None),
     "B9": Case("rayleigh_taylor", 1, 2, growth(0.0109031, 60), tolerance=0.03, order=None),
     "B9 viscosity 0.01": Case("rayleigh_taylor", 1, 0.2, growth(0.103834, 6), THIN_LAYER, 0.03, None),
+    "B10": Case("square_decay", 4, 4e-3, {"rate": (rate("Kinetic energy (J)", 2, 0.08), 52.3446911)}, in_time=({},)),
+    "B11": Case("spin_down", 4, 2e-3, {"rate": (rate("Kinetic energy (J)", 2, 0.03), (3.83170597 / 0.43) ** 2)},
+                in_time=({},)),
 }

@@ -9,8 +9,9 @@ import numpy
 
 from treacle.verification.cases import EULER, FIRST_PROJECTION, SPLIT, Case, Program
 from treacle.verification.measures import (at, coil_radius, decay_and_frequency, decay_rate, front, height,
-                                           interpolated, last, surface_rate, turning, wave)
+                                           interpolated, last, surface_rate, thread_radius, turning, wave)
 from treacle.verification.small_waves import wave_from_rest
+from treacle.verification.thread import thread_speed
 
 RIGHT = "Liquid maximum x (m)"
 SHALLOW = {"Domain/Upper corner": "1, 1", "Mesh/Root cells": "2",
@@ -116,6 +117,11 @@ SLUMP = {f"{name}, t = {t}": (measure, exact) for t, x, h in HELD
          for name, measure, exact in (("x", at(RIGHT, t), x), ("h(0)", height(t), h))}
 DAM_FRONT = {f"front, t sqrt(2 g / a) = {t}": (interpolated(RIGHT, t / sqrt(2)), exact)
              for t, exact in DAM}
+BUCKET = {"angular momentum": KEPT_3D["angular momentum"],
+          "kinetic energy": (kept("Nodal kinetic energy (J)"), 1),
+          "top": (last("Liquid maximum z (m)"), 0.45 + 16 / 19.62 * 0.08)}
+THREAD = {f"radius, {z} below": (thread_radius(0.5, 0.92 - z), 0.04 / sqrt(thread_speed(z, 1, 0.9, 0.05)))
+          for z in (0.1, 0.2, 0.3, 0.4)}
 CARRIED = {"volume": 0.005, "shape": 0.03}
 
 
@@ -159,6 +165,8 @@ FREE_SURFACE_CASES = {
     "C9d 3D": case("drop_impact_3d", 2, 0.04, widths(IMPACT_3D), COARSE_AIR, 0.01, order=None, n_levels=2),
     "C9e": case("dam_break", 2, 0.04, DAM_FRONT, tolerance=0.1),  # as the measurement
     "C11": case("coil_viscous", 4, 0.04, COIL, ROPE, 0.15, order=None, n_levels=1),
+    "C13": case("bucket", 4, 0.02, BUCKET, GRADED, n_levels=2),
+    "C14": case("falling_thread", 4, 0.02, THREAD, GRADED, order=None, n_levels=2),
     "C10 notched disc": carried("notched", 2, 5, 3),
     "C10 disc in a vortex": carried("vortex", 2, 5, 3),
     "C10 sphere in a vortex": carried("vortex", 3, 4, 2),

@@ -7,7 +7,7 @@ import math
 import numpy
 
 from treacle import Run
-from treacle.stream import centre_of_cut
+from treacle.stream import area_of_cut, centre_of_cut
 
 TIME = "Time (s)"
 
@@ -150,6 +150,11 @@ def height(time, x=0):
             s = numpy.where(a[:, 0] == b[:, 0], 0, (x - a[:, 0]) / (b[:, 0] - a[:, 0]))
         return numpy.max(a[:, 1] + numpy.clip(s, 0, 1) * (b[:, 1] - a[:, 1]))
     return value
+
+
+def thread_radius(time, z):
+    """Of what a plane cuts, if it were round."""
+    return lambda results: math.sqrt(area_of_cut(results.surface(time), z) / math.pi)
 
 
 def front(time, y=0):

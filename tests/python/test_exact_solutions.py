@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) the Treacle authors
-"""The exact small wave against what is known of it."""
+"""Exact small waves and threads against what is known of them."""
 
 import unittest
 from math import pi, sqrt, tanh
@@ -9,6 +9,7 @@ import numpy
 
 from treacle.verification.measures import decay_and_frequency, decay_rate
 from treacle.verification.small_waves import wave_from_rest
+from treacle.verification.thread import thread_speed
 
 
 class SmallWaveTest(unittest.TestCase):
@@ -32,6 +33,20 @@ class SmallWaveTest(unittest.TestCase):
         times = numpy.linspace(0, 2, 21)
         exact = numpy.cos(sqrt(9.81 * 3 * tanh(3 * 0.7)) * times)
         self.assertLess(abs(wave_from_rest(3, 0.7, 1e-5, times, gravity=9.81) - exact).max(), 2e-3)
+
+
+class ThreadTest(unittest.TestCase):
+    def test_falls_freely_without_viscosity(self):
+        z = numpy.array([0.1, 0.5])
+        numpy.testing.assert_allclose(thread_speed(z, 1, 0.9, 1e-7), numpy.sqrt(1 + 2 * 9.81 * z), rtol=1e-4)
+
+    def test_force_and_momentum(self):
+        """U - 3 nu U'/U changes by g times the time that passes."""
+        nu, z = 0.05, numpy.linspace(0.1, 0.3, 401)
+        u = thread_speed(z, 1, 0.9, nu)
+        momentum = u - 3 * nu * numpy.gradient(u, z) / u
+        time = numpy.concatenate([[0], numpy.cumsum(numpy.diff(z) * (1 / u[1:] + 1 / u[:-1]) / 2)])
+        numpy.testing.assert_allclose((momentum - momentum[0])[5:-5], 9.81 * time[5:-5], rtol=2e-2, atol=2e-3)
 
 
 if __name__ == "__main__":
