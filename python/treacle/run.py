@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import numpy
 
 from treacle.errors import DataError
+from treacle.motion import Motion
 from treacle.parameters import read_parameters
 from treacle.statistics import read_statistics
 from treacle.surface import read_surface
@@ -21,6 +22,7 @@ class Solid(NamedTuple):
     shape: str          # as in the parameter file
     numbers: Callable   # from a parameter's name to an array of its numbers
     is_inverted: bool   # a container: solid outside the shape
+    motion: Motion      # None where its formulas are not understood here
 
 
 class Run:
@@ -79,7 +81,15 @@ class Run:
                 return
             yield Solid(self.parameters.get(block + "Shape", "sphere"),
                         lambda name, block=block: self.numbers(block + name),
-                        self.parameters.get(block + "Invert") == "true")
+                        self.parameters.get(block + "Invert") == "true",
+                        self._motion(block))
+
+    def _motion(self, block):
+        try:
+            return Motion({name[len(block):]: value for name, value in self.parameters.items()
+                           if name.startswith(block)}, self.dim)
+        except DataError:
+            return None
 
     @cached_property
     def statistics(self):

@@ -15,6 +15,7 @@ from synthetic_run import write_run
 from treacle import DataError, Run, read_parameters, read_statistics, read_surface, read_timing
 from treacle.layers import problems
 from treacle.mesh import Mesh
+from treacle.motion import Motion, formula
 from treacle.stream import area_of_cut, centre_of_cut, coiling, folding
 from treacle.sweep import Scene, Verdict
 
@@ -166,6 +167,27 @@ class SurfaceTest(InDirectory):
         self.assertEqual(surface.points[2].tolist(), [0, 1, 0.5])
         self.assertEqual(surface.facets.tolist(), [[0, 1, 2]])
         self.assertFalse(surface.velocity.any())
+
+
+class MotionTest(unittest.TestCase):
+    def test_position(self):
+        motion = Motion({"Displacement": "0; 0.15*sin(5*t)", "Rotation": "if(t < 1, t^2, 1)",
+                         "Centre of rotation": "1, 2"}, 2)
+        matrix, shift = motion.pose(0.5)
+        numpy.testing.assert_allclose(matrix @ [1, 2] + shift, [1, 2 + 0.15 * math.sin(2.5)])
+        numpy.testing.assert_allclose(matrix @ [2, 2] + shift,
+                                      [1 + math.cos(0.25), 2 + 0.15 * math.sin(2.5) + math.sin(0.25)])
+
+    def test_velocity(self):
+        motion = Motion({"Velocity": "t; 0; 0", "Angular velocity": "0; 0; 3*t^2", "Centre of rotation": "0, 0, 5"}, 3)
+        matrix, shift = motion.pose(2)
+        numpy.testing.assert_allclose(matrix @ [1, 0, 5] + shift, [2 + math.cos(8), math.sin(8), 5], atol=1e-4)
+
+    def test_rest_and_others(self):
+        self.assertFalse(Motion({"Velocity": "0; 0", "Rotation": "0"}, 2).is_moving)
+        for text in "log(t)", "__import__('os')", "t; t", "f(t)":
+            with self.assertRaises(DataError):
+                formula(text)
 
 
 class StreamTest(InDirectory):

@@ -6,8 +6,8 @@ import numpy
 import vtk
 
 
-def body(shape, value, run):
-    """What draws a body, within the box, or None where nothing here can."""
+def body(shape, value, run, matrix, shift):
+    """What draws a body where it was at t = 0, or None where nothing here can; a half space where it is, within the box."""
     if shape == "sphere":
         source = vtk.vtkSphereSource()
         source.SetCenter(*value("Centre"))
@@ -39,8 +39,8 @@ def body(shape, value, run):
     if shape == "box":
         return box
     plane, planes, part = vtk.vtkPlane(), vtk.vtkPlaneCollection(), vtk.vtkClipClosedSurface()
-    plane.SetOrigin(*value("Centre"))
-    plane.SetNormal(*-value("Normal"))
+    plane.SetOrigin(*(matrix @ value("Centre") + shift))
+    plane.SetNormal(*-(matrix @ value("Normal")))
     planes.AddItem(plane)
     part.SetInputConnection(box.GetOutputPort())
     part.SetClippingPlanes(planes)

@@ -8,6 +8,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, PathPatch, Rectangle
 from matplotlib.path import Path
+from matplotlib.transforms import Affine2D
 
 from treacle.outline import liquid_loops
 from treacle.render.cells import walls, weld, wet_polygons
@@ -24,12 +25,14 @@ def filled(loops, **style):
         *(Path(numpy.vstack([loop, loop[:1]]), closed=True) for loop in loops)), **style)
 
 
-def draw_box(axes, run):
-    """The domain and its solids, with a margin."""
+def draw_box(axes, run, time=0):
+    """The domain and its solids at a time (s), with a margin."""
     if not run.has_mesh_file:
         axes.add_patch(Rectangle(run.lower, *(run.upper - run.lower), fill=False,
                                  edgecolor=FRAME, linewidth=1.5, zorder=5))
-    for shape, value, inside_out in run.solids():
+    for shape, value, inside_out, motion in run.solids():
+        if motion is None:
+            continue
         if shape == "sphere":
             patch = Circle(value("Centre"), value("Radius")[0])
         elif shape == "box":
@@ -39,6 +42,8 @@ def draw_box(axes, run):
             continue
         patch.set(facecolor="none" if inside_out else SOLID, edgecolor=FRAME, zorder=4)
         axes.add_patch(patch)
+        matrix, shift = motion.pose(time)
+        patch.set_transform(Affine2D(numpy.block([[matrix, shift[:, None]], [0, 0, 1]])) + axes.transData)
     margin = 0.02 * (run.upper - run.lower).max()
     axes.set(aspect="equal", xlim=(run.lower[0] - margin, run.upper[0] + margin),
              ylim=(run.lower[1] - margin, run.upper[1] + margin))
@@ -81,7 +86,7 @@ class Pictures2D:
         else:
             lines.set_color(EDGE)
         axes.add_collection(lines)
-        draw_box(axes, run)
+        draw_box(axes, run, run.time(frame))
         axes.set_title(f"t = {run.time(frame):.3f} s", color=FRAME)
         axes.set(xlabel="x (m)", ylabel="y (m)")
         figure.savefig(path)

@@ -4,6 +4,7 @@
 
 import numpy
 from matplotlib import colormaps
+from vtk import vtkMatrix4x4
 from vtk.util.numpy_support import vtk_to_numpy
 
 from treacle.outline import merge, wall_caps
@@ -37,8 +38,6 @@ class Pictures3D:
             self.studio.colour_bar(self.colours, "speed (m/s)")
         if self.colours is not None:
             self.studio.light(0.75, (0, 0, 1))
-        if not options.mesh:
-            self._solids()
         lower, upper = run.lower, run.upper
         if options.focus == "liquid":
             clouds = [run.surface(k).points for k in frames]
@@ -54,6 +53,8 @@ class Pictures3D:
             surface.facets = surface.facets[:0]
         elif len(surface.facets):
             self._liquid(surface)
+        if not self.mesh:
+            self._solids(self.run.time(frame))
         self.studio.paint_floor(surface.points, surface.facets)
         self.studio.title.SetInput(f"t = {self.run.time(frame):.3f} s")
         self.studio.save(path)
@@ -128,14 +129,22 @@ class Pictures3D:
         self.actors.append(actor)
         return actor
 
-    def _solids(self):
-        for shape, value, inside_out in self.run.solids():
-            source = body(shape, value, self.run)
+    def _solids(self, time):
+        for shape, value, inside_out, motion in self.run.solids():
+            if motion is None:
+                continue
+            matrix, shift = motion.pose(time)
+            source = body(shape, value, self.run, matrix, shift)
             if source is None:
                 continue
-            material = self.studio.add(source).GetProperty()
+            actor = self.studio.add(source)
+            if shape != "half space":
+                actor.SetUserMatrix(vtkMatrix4x4())
+                actor.GetUserMatrix().DeepCopy([*numpy.hstack([matrix, shift[:, None]]).ravel(), 0, 0, 0, 1])
+            material = actor.GetProperty()
             material.SetColor(*SOLID)
             material.SetInterpolationToPBR()
             material.SetRoughness(0.6)
             if inside_out:
                 material.SetOpacity(0.12)
+            self.actors.append(actor)

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) the Treacle authors
+"""Where a moving solid is, by the formulas of its parameters."""
+
+import math
+import re
+
+import numpy
+
+from treacle.errors import DataError
+
+FUNCTIONS = {**{name: getattr(math, name) for name in ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh",
+                                                       "tanh", "exp", "sqrt", "floor", "ceil", "pow")},
+             "ln": math.log, "abs": abs, "min": min, "max": max, "pi": math.pi, "_pi": math.pi, "_e": math.e,
+             "when": lambda condition, yes, no: yes if condition else no}
+
+
+def formula(text):
+    """A function of t (s) from a formula of a parameter file; DataError where it is not understood here."""
+    python = re.sub(r"\bif\s*\(", "when(", text.strip()).replace("^", "**")
+    python = python.replace("&&", " and ").replace("||", " or ")
+    number = r"(?<![\w.])(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+    names = set(re.findall(r"[A-Za-z_]\w*", re.sub(number, "", python))) - {"and", "or"}
+    try:
+        if not names <= {*FUNCTIONS, "t"} or not re.fullmatch(r"[\w\s.,()+\-*/<>=!]+", python):
+            raise SyntaxError
+        code = compile(python, "formula", "eval")
+    except SyntaxError:
+        raise DataError(f"pictures do not understand the formula '{text}'") from None
+    return lambda t: float(eval(code, {"__builtins__": {}}, {**FUNCTIONS, "t": t}))
+
+
+def rotation(turn):
+    """The matrix of a turn by an angle, (1,), or about a vector by its length, (3,), in rad."""
+    angle = numpy.linalg.norm(turn)
+    if len(turn) == 1:
+        c, s = math.cos(turn[0]), math.sin(turn[0])
+        return numpy.array([[c, -s], [s, c]])
+    if angle == 0:
+        return numpy.eye(3)
+    x, y, z = turn / angle
+    cross = numpy.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return numpy.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
+
+
+class Motion:
+    """Of a solid with these parameters, by name ('Displacement', ...), in dim dimensions. DataError where a formula
+    is not understood."""
+
+    def __init__(self, parameters, dim):
+        def formulas(name, n):
+            texts = parameters.get(name, "0").split(";")
+            return [formula(text) for text in (texts if len(texts) == n else texts[:1] * n)]
+
+        def moves(*names):
+            return any(re.search(r"[1-9A-Za-z]", parameters.get(name, "0")) for name in names)
+
+        n_turns = 1 if dim == 2 else 3
+        self.by_velocity = moves("Velocity", "Angular velocity")
+        self.is_moving = self.by_velocity or moves("Displacement", "Rotation")
+        shift, turn = (("Velocity", "Angular velocity") if self.by_velocity else ("Displacement", "Rotation"))
+        self.shifts, self.turns = formulas(shift, dim), formulas(turn, n_turns)
+        centre = parameters.get("Centre of rotation", "0")
+        self.start = numpy.array([float(x) for x in re.split(r"[,;]", centre)]) * numpy.ones(dim)
+
+    def pose(self, t):
+        """A matrix (dim, dim) and a vector (dim,), m: what was at x is at matrix @ x + vector at the time t (s)."""
+        def at(functions, time):
+            return numpy.array([f(time) for f in functions])
+
+        if not self.by_velocity:
+            shift, matrix = at(self.shifts, t), rotation(at(self.turns, t))
+        else:
+            n = 400
+            shift, matrix = numpy.zeros(len(self.shifts)), numpy.eye(len(self.shifts))
+            for k in range(n):  # the midpoint rule
+                middle = (k + 0.5) * t / n
+                shift = shift + t / n * at(self.shifts, middle)
+                matrix = rotation(t / n * at(self.turns, middle)) @ matrix
+        return matrix, self.start + shift - matrix @ self.start
