@@ -17,7 +17,7 @@ namespace treacle
   template <int dim>
   class Locator;
 
-  /// A distributed simplex mesh as flat arrays, numbered by deal.II.
+  /// A distributed simplex mesh as flat arrays, in the order of deal.II's partitioners.
   /// Never changed: a new surface makes a new mesh. Arrays hold the owned
   /// entries first, then the ghosts, in the order of the partitioner's local
   /// indices; ghost cells are all that share a node with an owned cell.

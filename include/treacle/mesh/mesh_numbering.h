@@ -12,8 +12,8 @@
 
 namespace treacle
 {
-  /// Numbers of nodes, faces and cells over all ranks, and what each rank holds of them. The faces are those of a deal.II
-  /// triangulation of each rank's cells, which is gone when they are numbered.
+  /// Numbers of nodes, faces and cells over all ranks, and what each rank holds of them. Cells share a face if they have
+  /// its vertices.
   template <int dim>
   struct MeshNumbering
   {
