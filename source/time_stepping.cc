@@ -16,6 +16,8 @@ namespace treacle
     /// Part of what the surface moves over that a step may lose before it is repeated: bodies that run into each other over
     /// more than a leaf or two in a step fill the air between them with neither's velocity.
     constexpr double most_swallowed = 0.125;
+    /// What swallows more than this part is no such loss: of steps of many leaves a half may be little better, and a quarter good.
+    constexpr double most_at_a_rate = 0.5;
     /// Part of the volume that a step may push into walls, before it is repeated.
     constexpr double largest_loss = 0.2;
     /// Where half a step leaves more of it, the mesh is too coarse, not the step.
@@ -69,7 +71,8 @@ namespace treacle
     is_no_better(const typename Transport<dim>::Info &half, const typename Transport<dim>::Info &whole)
     {
       return std::abs(half.drift) > worth_halving * std::abs(whole.drift) ||
-             (std::abs(whole.drift) <= largest_drift && half.swallowed > worth_halving * whole.swallowed);
+             (std::abs(whole.drift) <= largest_drift && whole.swallowed < most_at_a_rate &&
+              half.swallowed > worth_halving * whole.swallowed);
     }
 
     /// The liquid where it is, with another velocity.

@@ -30,6 +30,10 @@ class Entry(NamedTuple):
     def chosen_frame(self):
         return self.run.frames[-1] if self.frame is None else self.frame
 
+    def time(self):
+        """Of the frame (s)."""
+        return self.run.time(self.chosen_frame())
+
 
 def read_entry(text):
     """The Entry that LABEL=DIRECTORY[:FRAME] names. Raises DataError."""
@@ -82,7 +86,7 @@ def plot_extents(path, entries):
         if is_flat:
             draw_outline(axes[0], entry._replace(frame=None), f"C{k}", 1.4)
     if is_flat:
-        draw_box(axes[0], entries[0].run)
+        draw_box(axes[0], entries[0].run, entries[0]._replace(frame=None).time())
         axes[0].set(xlabel="x (m)", ylabel="y (m)", title="at the end")
         axes[0].set_ylim(top=axes[0].get_ylim()[0] + 0.6 * numpy.ptp(axes[0].get_xlim()))
     axes[-2].set(xlabel="time (s)", ylabel="height (m)")
@@ -100,7 +104,7 @@ def outline_table(entries):
         loops = entry.outline()
         cloud = numpy.concatenate(loops) if loops else numpy.zeros((1, 2))
         width, height = numpy.ptp(cloud, axis=0)
-        lines.append(f"{entry.label:<24} {entry.run.time(entry.chosen_frame()):10.4f} "
+        lines.append(f"{entry.label:<24} {entry.time():10.4f} "
                      f"{height:10.5f} {width:10.5f} {sum(map(area, loops)):10.6f}")
     return "\n".join(lines)
 
@@ -111,7 +115,7 @@ def plot_outlines(path, entries):
     figure = Figure((13, 5), dpi=120, layout="constrained")
     left, right = figure.subplots(1, 2, gridspec_kw={"width_ratios": [3, 2]})
     missing = []
-    draw_box(left, entries[0].run)
+    draw_box(left, entries[0].run, entries[0].time())
     for k, entry in enumerate(entries):
         draw_outline(left, entry, f"C{k}", 1.6)
         try:

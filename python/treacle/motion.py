@@ -13,6 +13,7 @@ FUNCTIONS = {**{name: getattr(math, name) for name in ("sin", "cos", "tan", "asi
                                                        "tanh", "exp", "sqrt", "floor", "ceil", "pow")},
              "ln": math.log, "abs": abs, "min": min, "max": max, "pi": math.pi, "_pi": math.pi, "_e": math.e,
              "when": lambda condition, yes, no: yes if condition else no}
+STEP = 1 / 128  # s, at most, of what is integrated
 
 
 def formula(text):
@@ -64,14 +65,18 @@ class Motion:
         self.start = numpy.array([float(x) for x in re.split(r"[,;]", centre)]) * numpy.ones(dim)
 
     def pose(self, t):
-        """A matrix (dim, dim) and a vector (dim,), m: what was at x is at matrix @ x + vector at the time t (s)."""
+        """A matrix (dim, dim) and a vector (dim,), m: what was at x is at matrix @ x + vector at the time t (s). DataError where
+        a formula has no value, or none in Python, which wants both branches of an if to have one."""
         def at(functions, time):
-            return numpy.array([f(time) for f in functions])
+            try:
+                return numpy.array([f(time) for f in functions])
+            except (ArithmeticError, TypeError, ValueError):
+                raise DataError(f"pictures find no value of the formulas of a solid at t = {time} s") from None
 
         if not self.by_velocity:
             shift, matrix = at(self.shifts, t), rotation(at(self.turns, t))
         else:
-            n = 400
+            n = max(400, math.ceil(t / STEP))
             shift, matrix = numpy.zeros(len(self.shifts)), numpy.eye(len(self.shifts))
             for k in range(n):  # the midpoint rule
                 middle = (k + 0.5) * t / n

@@ -22,7 +22,7 @@ class Solid(NamedTuple):
     shape: str          # as in the parameter file
     numbers: Callable   # from a parameter's name to an array of its numbers
     is_inverted: bool   # a container: solid outside the shape
-    motion: Motion      # None where its formulas are not understood here
+    pose: Callable      # from a time (s) to treacle.motion.Motion.pose, or None where its formulas are not understood
 
 
 class Run:
@@ -82,12 +82,12 @@ class Run:
             yield Solid(self.parameters.get(block + "Shape", "sphere"),
                         lambda name, block=block: self.numbers(block + name),
                         self.parameters.get(block + "Invert") == "true",
-                        self._motion(block))
+                        lambda time, block=block: self._pose(block, time))
 
-    def _motion(self, block):
+    def _pose(self, block, time):
         try:
             return Motion({name[len(block):]: value for name, value in self.parameters.items()
-                           if name.startswith(block)}, self.dim)
+                           if name.startswith(block)}, self.dim).pose(time)
         except DataError:
             return None
 

@@ -34,10 +34,10 @@ def centre_of_cut(surface, height):
 
 def area_of_cut(surface, height):
     """Inside that curve (m^2), of which all can be seen from its centre; 0 where there is no cut."""
-    a, b = cut(surface, height)
-    if len(a) == 0:
+    centre = centre_of_cut(surface, height)
+    if centre is None:
         return 0.
-    a, b = (end - centre_of_cut(surface, height) for end in (a, b))
+    a, b = (end - centre for end in cut(surface, height))
     return abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2
 
 

@@ -185,6 +185,8 @@ class MotionTest(unittest.TestCase):
 
     def test_rest_and_others(self):
         self.assertFalse(Motion({"Velocity": "0; 0", "Rotation": "0"}, 2).is_moving)
+        with self.assertRaises(DataError):
+            Motion({"Displacement": "if(t > 0, sin(t)/t, 1); 0"}, 2).pose(0)
         for text in "log(t)", "__import__('os')", "t; t", "f(t)":
             with self.assertRaises(DataError):
                 formula(text)

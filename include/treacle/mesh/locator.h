@@ -110,7 +110,7 @@ namespace treacle
     Location<dim>
     in_cell(const LocalIndex cell, const Point<dim> &x) const
     {
-      // gradients would be at hand, but there are five times as many cells as nodes, and what counts here is memory
+      // gradients would be at hand, but in 3D there are five times as many cells as nodes, and what counts here is memory
       return {cell, x, barycentric_coordinates<dim>(mesh.cell_vertices(cell), x)};
     }
 

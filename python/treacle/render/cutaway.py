@@ -24,6 +24,7 @@ class Cutaway(Pictures3D):
         is_pale = self.is_behind(mesh) & ~is_liquid
         self._cells(mesh.points, mesh.cells[is_liquid], self.LIQUID, (0.36, 0.17, 0.0))
         self._cells(mesh.points, mesh.cells[is_pale], self.AIR, (0.42, 0.49, 0.56))
+        self._solids(self.run.time(frame))
         self.studio.paint_floor(mesh.points[:0], numpy.zeros((0, 3), int))
         self.studio.title.SetInput("")
         self.studio.save(path)

@@ -25,13 +25,14 @@ def filled(loops, **style):
         *(Path(numpy.vstack([loop, loop[:1]]), closed=True) for loop in loops)), **style)
 
 
-def draw_box(axes, run, time=0):
+def draw_box(axes, run, time):
     """The domain and its solids at a time (s), with a margin."""
     if not run.has_mesh_file:
         axes.add_patch(Rectangle(run.lower, *(run.upper - run.lower), fill=False,
                                  edgecolor=FRAME, linewidth=1.5, zorder=5))
-    for shape, value, inside_out, motion in run.solids():
-        if motion is None:
+    for shape, value, inside_out, pose in run.solids():
+        place = pose(time)
+        if place is None:
             continue
         if shape == "sphere":
             patch = Circle(value("Centre"), value("Radius")[0])
@@ -42,7 +43,7 @@ def draw_box(axes, run, time=0):
             continue
         patch.set(facecolor="none" if inside_out else SOLID, edgecolor=FRAME, zorder=4)
         axes.add_patch(patch)
-        matrix, shift = motion.pose(time)
+        matrix, shift = place
         patch.set_transform(Affine2D(numpy.block([[matrix, shift[:, None]], [0, 0, 1]])) + axes.transData)
     margin = 0.02 * (run.upper - run.lower).max()
     axes.set(aspect="equal", xlim=(run.lower[0] - margin, run.upper[0] + margin),

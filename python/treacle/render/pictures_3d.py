@@ -22,7 +22,7 @@ VIRIDIS = [colormaps["viridis"](x)[:3] for x in numpy.linspace(0, 1, 17)]
 
 
 class Pictures3D:
-    """The studio is built once; draw() exchanges the liquid or the mesh."""
+    """The studio is built once; draw() exchanges the liquid, or the mesh, and the solids."""
 
     def __init__(self, run, frames, options):
         self.run, self.mesh = run, options.mesh
@@ -130,10 +130,11 @@ class Pictures3D:
         return actor
 
     def _solids(self, time):
-        for shape, value, inside_out, motion in self.run.solids():
-            if motion is None:
+        for shape, value, inside_out, pose in self.run.solids():
+            place = pose(time)
+            if place is None:
                 continue
-            matrix, shift = motion.pose(time)
+            matrix, shift = place
             source = body(shape, value, self.run, matrix, shift)
             if source is None:
                 continue

@@ -31,5 +31,5 @@ def thread_speed(z, start, length, nu, gravity=9.81):
         change = numpy.linalg.solve(jacobian, residual)
         u -= change
         if abs(change).max() < 1e-12 * u.max():
-            break
-    return numpy.interp(z, x, u)
+            return numpy.interp(z, x, u)
+    raise ArithmeticError("Newton's method does not converge")
