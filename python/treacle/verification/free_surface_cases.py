@@ -120,8 +120,9 @@ DAM_FRONT = {f"front, t sqrt(2 g / a) = {t}": (interpolated(RIGHT, t / sqrt(2)),
 BUCKET = {"angular momentum": KEPT_3D["angular momentum"],
           "kinetic energy": (kept("Nodal kinetic energy (J)"), 1),
           "top": (last("Liquid maximum z (m)"), 0.45 + 16 / 19.62 * 0.08)}
-THREAD = {f"radius, {z} below": (thread_radius(0.5, 0.92 - z), 0.04 / sqrt(thread_speed(z, 1, 0.9, 0.05)))
-          for z in (0.1, 0.2, 0.3, 0.4)}
+BELOW = numpy.array([0.1, 0.2, 0.3, 0.4])  # the nozzle
+THREAD = {f"radius, {z} below": (thread_radius(0.5, 0.92 - z), 0.04 / sqrt(speed))
+          for z, speed in zip(BELOW, thread_speed(BELOW, 1, 0.9, 0.05))}
 CARRIED = {"volume": 0.005, "shape": 0.03}
 
 
