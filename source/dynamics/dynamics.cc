@@ -33,9 +33,10 @@ namespace treacle
   }
 
   template <int dim>
-  Dynamics<dim>::Dynamics(const Parameters &parameters, const StepSwitches &switches)
+  Dynamics<dim>::Dynamics(const Parameters &parameters, const StepSwitches &switches, const double longest_step)
     : prm(parameters)
     , switches(switches)
+    , longest_step(longest_step)
     , viscosity(parameters.viscosity)
     , reconstruction(parameters.reconstruction)
   {
@@ -163,6 +164,13 @@ namespace treacle
   }
 
   template <int dim>
+  void
+  Dynamics<dim>::reconstruct(State<dim> &state, const Stage &stage) const
+  {
+    reconstruction.advance(state, *stage.fit, stage.is_viscous ? longest_step : 0);
+  }
+
+  template <int dim>
   typename Dynamics<dim>::Info
   Dynamics<dim>::advance(Liquid<dim>              &liquid,
                          const BackwardDifference &difference,
@@ -174,7 +182,7 @@ namespace treacle
       stage.springs = surface_weight(state, *liquid.domain, liquid.surface->facets, difference);
     stage.advance(state);
     const auto section = timing.section("reconstruction");
-    reconstruction.advance(state, *stage.fit);
+    reconstruct(state, stage);
     return stage.info;
   }
 
@@ -186,7 +194,7 @@ namespace treacle
     Stage       stage(*this, *liquid.domain, state.time, 1., timing);
     stage.project(state, Stage::Pass::correction);
     state.pressure = 0; // it was that of a blow
-    reconstruction.advance(state, *stage.fit);
+    reconstruct(state, stage);
   }
 
   template <int dim>

@@ -33,10 +33,12 @@ namespace treacle
     /// the faces gives smooth flows back to fourth order in h.
     template <int dim>
     void
-    fit_smoothly(const FaceFit<dim> &fit, const Vector &u, NodeVector<dim> &v)
+    fit_smoothly(const FaceFit<dim> &fit, const double longest_step, const Vector &u, NodeVector<dim> &v)
     {
       const LiquidDomain<dim> &domain = fit.domain;
-      const FaceFit<dim>       smooth(fit, 0.15);
+      constexpr double         weight = 0.15;
+      const auto               slip   = Slip<dim>::of(domain, longest_step);
+      const FaceFit<dim>       smooth = slip ? FaceFit<dim>(fit, *slip, weight) : FaceFit<dim>(fit, weight);
       smooth.solve(u, v);
       Vector again = u;
       again.zero_out_ghost_values();
@@ -51,12 +53,12 @@ namespace treacle
 
   template <int dim>
   void
-  Reconstruction<dim>::advance(State<dim> &state, const FaceFit<dim> &fit) const
+  Reconstruction<dim>::advance(State<dim> &state, const FaceFit<dim> &fit, const double longest_step) const
   {
     switch (prm.method)
       {
         case Method::face_fitted:
-          fit_smoothly(fit, state.u, state.v);
+          fit_smoothly(fit, longest_step, state.u, state.v);
           break;
         case Method::two_step:
           two_step(fit.domain, state.u, state.v);

@@ -17,12 +17,19 @@ namespace treacle
 
   template <int dim>
   void
+  set_prescribed(const LiquidDomain<dim> &domain, const LocalIndex node, NodeVector<dim> &v)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (domain.constrained[node] >> d & 1)
+        v.component[d].local_element(node) = domain.prescribed[node][d];
+  }
+
+  template <int dim>
+  void
   set_prescribed(const LiquidDomain<dim> &domain, NodeVector<dim> &v)
   {
     for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
-      for (unsigned int d = 0; d < dim; ++d)
-        if (domain.constrained[node] >> d & 1)
-          v.component[d].local_element(node) = domain.prescribed[node][d];
+      set_prescribed(domain, node, v);
     v.update_ghost_values();
   }
 
@@ -73,6 +80,7 @@ namespace treacle
 
 #define INSTANTIATE(dim)                                                                        \
   template double face_velocity(const Mesh<dim> &, const NodeVector<dim> &, const LocalIndex); \
+  template void set_prescribed(const LiquidDomain<dim> &, const LocalIndex, NodeVector<dim> &); \
   template void set_prescribed(const LiquidDomain<dim> &, NodeVector<dim> &);                   \
   template void two_step(const LiquidDomain<dim> &, const Vector &, NodeVector<dim> &);
   INSTANTIATE(2)

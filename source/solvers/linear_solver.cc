@@ -56,6 +56,9 @@ namespace treacle
 
   namespace
   {
+    /// Rows that are solved directly.
+    constexpr int coarse = 2000;
+
     std::shared_ptr<TrilinosWrappers::PreconditionBase>
     make_amg(const TrilinosWrappers::SparseMatrix &matrix, NearNullSpace &null_space)
     {
@@ -73,7 +76,7 @@ namespace treacle
       list.set("smoother: Chebyshev alpha", 10.);
       list.set("aggregation: type", "Uncoupled");
       list.set("aggregation: threshold", 1e-4);
-      list.set("coarse: max size", 2000);
+      list.set("coarse: max size", coarse);
       list.set("coarse: type", "Amesos-KLU");
       list.set("PDE equations", static_cast<int>(null_space.n_components));
       // ML wants a pointer even on a rank without rows
@@ -94,13 +97,13 @@ namespace treacle
     constexpr double smallest_size = 1e-7;
 
     /// What a hierarchy is made of, where it is not the matrix itself: a multiple of it; and of components that are
-    /// coupled, and do not turn together, each by itself: a ninth of the work, and hardly more iterations.
+    /// coupled, and do not turn together, each by itself: a ninth of the work, and hardly more iterations. Small matrices are solved as they are.
     std::shared_ptr<const TrilinosWrappers::SparseMatrix>
     copy_for_amg(const TrilinosWrappers::SparseMatrix &matrix,
                  const double                          factor,
                  const NearNullSpace                  &null_space)
     {
-      if (null_space.n_components > 1 && null_space.n_vectors <= null_space.n_components)
+      if (null_space.n_components > 1 && null_space.n_vectors <= null_space.n_components && matrix.m() > coarse)
         return decoupled(matrix, null_space.n_components, factor);
       if (factor == 1)
         return nullptr;

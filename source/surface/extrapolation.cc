@@ -66,7 +66,11 @@ namespace treacle
       if (const double *value = &values[i * (dim + 1)]; value[dim] > 0)
         for (unsigned int d = 0; d < dim; ++d)
           state.v.component[d].local_element(extension.nodes[i]) = value[d] / value[dim];
-    set_prescribed(domain, state.v);
+    // those of the liquid have what is prescribed, or slip
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      if (extension.is_known.local_element(node) == 0)
+        set_prescribed(domain, node, state.v);
+    state.v.update_ghost_values();
 
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       if (!domain.is_liquid_face(f))

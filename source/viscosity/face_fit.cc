@@ -16,6 +16,13 @@ namespace treacle
   {}
 
   template <int dim>
+  FaceFit<dim>::FaceFit(const FaceFit &other, const Slip<dim> &slip, const double strain_weight)
+    : FaceFit(other.prm, std::make_shared<const NodeSystem<dim>>(*slip.domain), strain_weight)
+  {
+    stiffness.springs = slip.springs;
+  }
+
+  template <int dim>
   FaceFit<dim>::FaceFit(const Parameters                             &parameters,
                         const std::shared_ptr<const NodeSystem<dim>> &system,
                         const double                                  strain_weight)

@@ -44,7 +44,7 @@ namespace
       {
         body.set_velocity(field);
         body.state.v = NodeVector<dim>(mesh.nodes);
-        Reconstruction<dim>({method}).advance(body.state, body.fit);
+        Reconstruction<dim>({method}).advance(body.state, body.fit, 1);
         double error = 0, size = 0, worst = 0;
         for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
           if (body.domain.is_active_node[node])

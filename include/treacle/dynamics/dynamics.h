@@ -43,8 +43,8 @@ namespace treacle
       add_parameters(ParameterHandler &prm);
     };
 
-    /// Throws a UserError where the choices do not go together.
-    Dynamics(const Parameters &parameters, const StepSwitches &switches);
+    /// Throws a UserError where the choices do not go together. @p longest_step that there may be (s).
+    Dynamics(const Parameters &parameters, const StepSwitches &switches, const double longest_step);
 
     /// Are viscosity and pressure solved for together?
     bool
@@ -88,8 +88,13 @@ namespace treacle
     bool
     is_viscous(const LiquidDomain<dim> &domain) const;
 
+    /// Node velocity from face velocity.
+    void
+    reconstruct(State<dim> &state, const Stage &stage) const;
+
     const Parameters          prm;
     const StepSwitches        switches;
+    const double              longest_step; ///< s
     const Forces<dim>         forces{};
     const Viscosity<dim>      viscosity;
     const Reconstruction<dim> reconstruction;

@@ -33,9 +33,10 @@ namespace treacle
       : prm(parameters)
     {}
 
-    /// Set state.v at active nodes.
+    /// Set state.v at active nodes. Where viscosity spreads hardly any momentum in a @p longest_step (s) the face fit
+    /// slips along walls, see Slip.
     void
-    advance(State<dim> &state, const FaceFit<dim> &fit) const;
+    advance(State<dim> &state, const FaceFit<dim> &fit, const double longest_step) const;
 
   private:
     const Parameters prm;

@@ -58,6 +58,24 @@ namespace treacle
       return ArrayView<const Part>(all.data() + start[cell], start[cell + 1] - start[cell]);
     }
 
+    /// From now on no cell is cut for which @p is_whole holds.
+    template <typename Predicate>
+    void
+    close(const Predicate &is_whole)
+    {
+      std::vector<Part> kept;
+      for (LocalIndex c = 0; c + 1 < start.size(); ++c)
+        {
+          const auto of_cell = parts(c);
+          start[c]           = kept.size();
+          if (of_cell.size() > 0 && !is_whole(c))
+            kept.insert(kept.end(), of_cell.begin(), of_cell.end());
+        }
+      if (!start.empty())
+        start.back() = kept.size();
+      all = std::move(kept);
+    }
+
     /// The volume outside solids (m^dim) of a cell that is cut.
     double
     open_volume(const LocalIndex cell) const

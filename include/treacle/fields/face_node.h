@@ -14,6 +14,11 @@ namespace treacle
   double
   face_velocity(const Mesh<dim> &mesh, const NodeVector<dim> &v, const LocalIndex face);
 
+  /// Set the prescribed components at a node.
+  template <int dim>
+  void
+  set_prescribed(const LiquidDomain<dim> &domain, const LocalIndex node, NodeVector<dim> &v);
+
   /// Set the prescribed components at owned nodes and update the ghosts of v.
   template <int dim>
   void

@@ -106,6 +106,13 @@ namespace treacle
       return prm.scheme == Scheme::bdf2;
     }
 
+    /// The longest step that there may be (s).
+    double
+    longest() const
+    {
+      return std::min(prm.maximum, prm.frame_interval);
+    }
+
     double
     frame_time(const unsigned int frame) const
     {

@@ -5,7 +5,7 @@
 #define treacle_viscosity_face_fit_h
 
 #include <treacle/fields/face_node.h>
-#include <treacle/viscosity/node_system.h>
+#include <treacle/viscosity/slip.h>
 
 namespace treacle
 {
@@ -32,6 +32,9 @@ namespace treacle
 
     /// The same with another weight of the strain energy, in parts of h^2.
     FaceFit(const FaceFit &other, const double strain_weight);
+
+    /// And with walls and solids that do not hold all that they touch; @p slip must outlive this object.
+    FaceFit(const FaceFit &other, const Slip<dim> &slip, const double strain_weight);
 
     /// Set v at the active nodes from u, starting from what it holds. Returns
     /// the number of iterations. The first call sets up the solver. Collective.

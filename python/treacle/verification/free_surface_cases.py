@@ -9,7 +9,7 @@ import numpy
 
 from treacle.verification.cases import EULER, FIRST_PROJECTION, SPLIT, Case, Program
 from treacle.verification.measures import (at, coil_radius, decay_and_frequency, decay_rate, front, height,
-                                           interpolated, last, surface_rate, thread_radius, turning, wave)
+                                           interpolated, last, surface_rate, swinging, thread_radius, turning, wave)
 from treacle.verification.small_waves import wave_from_rest
 from treacle.verification.thread import thread_speed
 
@@ -41,6 +41,14 @@ def relaxing(k, depth, nu, start, end, interval):
 def waving(nu, start, end):
     exact = decay_and_frequency(*exact_amplitudes(pi, 1, nu, start, end, 0.1))
     return dict(zip(("rate", "frequency"), zip(wave(pi, start, end), exact)))
+
+
+def sloshing(eigenvalue):
+    """Of liquid without viscosity in a half full circle or ball of radius 0.4."""
+    exact = sqrt(eigenvalue * 9.81 / 0.4)
+    decay, frequency = swinging("Centre of mass x (m)", 0.5)
+    return {"frequency": (frequency, exact),
+            "amplitude after a period": (lambda results: exp(-2 * pi / exact * decay(results)), 1)}
 
 
 def kept(column):
@@ -168,6 +176,8 @@ FREE_SURFACE_CASES = {
     "C11": case("coil_viscous", 4, 0.04, COIL, ROPE, 0.15, order=None, n_levels=1),
     "C13": case("bucket", 4, 0.02, BUCKET, GRADED, n_levels=2),
     "C14": case("falling_thread", 4, 0.02, THREAD, GRADED, order=None, n_levels=2),
+    "C15": case("sloshing", 4, 0.04, sloshing(1.355728), {"Mesh/Air level": 3}),
+    "C15 3D": case("sloshing_3d", 4, 0.04, sloshing(1.560158), GRADED, n_levels=2),
     "C10 notched disc": carried("notched", 2, 5, 3),
     "C10 disc in a vortex": carried("vortex", 2, 5, 3),
     "C10 sphere in a vortex": carried("vortex", 3, 4, 2),

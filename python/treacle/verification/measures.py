@@ -120,10 +120,10 @@ def surface_rate(k, start=0, end=math.inf):
     return lambda results: decay_rate(*amplitudes(results, k, start, end))
 
 
-def decay_and_frequency(times, a):
-    """Of a wave's amplitudes: a real pair of roots fits a(t + d) + p a(t) + q a(t - d) = 0 best, for the
-    longest d that resolves the wave."""
-    d = max(1, round(0.6 / (times[1] - times[0])))
+def decay_and_frequency(times, a, lag=0.6):
+    """Of a wave's amplitudes: a real pair of roots fits a(t + d) + p a(t) + q a(t - d) = 0 best, for a
+    d that resolves the wave, as long as the lag (s)."""
+    d = max(1, round(lag / (times[1] - times[0])))
     known = numpy.stack([a[d:-d], a[:-2 * d]], axis=1)
     p, q = numpy.linalg.lstsq(known, -a[2 * d:], rcond=None)[0]
     root = numpy.log(numpy.roots([1, p, q]).astype(complex)[0]) / (d * (times[1] - times[0]))
@@ -134,6 +134,14 @@ def wave(k, start=0, end=math.inf):
     """Decay rate and angular frequency of the mode cos(k x)."""
     def fit(results):
         return decay_and_frequency(*amplitudes(results, k, start, end))
+    return lambda results: fit(results)[0], lambda results: fit(results)[1]
+
+
+def swinging(column, middle):
+    """Decay rate and angular frequency of what swings about a middle, in steps of one size."""
+    def fit(results):
+        times = numpy.linspace(0, results[TIME][-1], len(results[TIME]))
+        return decay_and_frequency(times, numpy.interp(times, results[TIME], results[column]) - middle, 0.3)
     return lambda results: fit(results)[0], lambda results: fit(results)[1]
 
 
