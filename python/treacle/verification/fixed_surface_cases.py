@@ -102,5 +102,5 @@ CLOSED_CASES = {
     "B10": Case("square_decay", 4, 4e-3, {"rate": (rate("Kinetic energy (J)", 2, 0.08), 52.3446911)}, in_time=({},)),
     "B11": Case("spin_down", 4, 2e-3, {"rate": (rate("Kinetic energy (J)", 2, 0.03), (3.83170597 / 0.43) ** 2)},
                 in_time=({},)),
-    "B12": Case("added_mass", 4, 0.02, {"force": (last("Solid 2 force x (N)"), -1000 * math.pi * 0.2 ** 2 * 5 / 3)}),
+    "B12": Case("added_mass", 5, 0.01, {"force": (last("Solid 2 force x (N)"), -1000 * math.pi * 0.2 ** 2 * 5 / 3)}),
 }
