@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/fields/gradients.h>
 #include <treacle/viscosity/slip.h>
 
 #include <algorithm>
@@ -52,19 +53,8 @@ namespace treacle
     Tensor<1, dim>
     normal(const LiquidDomain<dim> &domain, const LocalIndex node)
     {
-      const Mesh<dim> &mesh = domain.mesh;
-      Tensor<1, dim>   sum;
-      double           sum_of_lengths = 0;
-      for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
-        {
-          const LocalIndex c = mesh.node_cells[k];
-          Tensor<1, dim>   slope;
-          for (unsigned int i = 0; i <= dim; ++i)
-            slope += domain.solid_distance[mesh.cell_nodes[c][i]] * mesh.cell_gradients[c][i];
-          sum += mesh.cell_volume[c] * slope;
-          sum_of_lengths += mesh.cell_volume[c] * slope.norm();
-        }
-      return sum.norm() > 0.5 * sum_of_lengths ? sum / sum.norm() : Tensor<1, dim>();
+      const MeanGradient<dim> slope = mean_gradient(domain.mesh, domain.solid_distance, node);
+      return slope.mean.norm() > 0.5 * slope.length ? slope.mean / slope.mean.norm() : Tensor<1, dim>();
     }
 
     /// 1 at active nodes of which walls and solids hold less where the liquid is thin.

@@ -19,14 +19,15 @@ namespace treacle
     return result;
   }
 
-  /// Of a P1 field in a cell.
-  template <int dim>
+  /// Of a P1 field in a cell: a Vector, or a vector of numbers at all nodes.
+  template <int dim, typename Field>
   Tensor<1, dim>
-  cell_gradient(const Mesh<dim> &mesh, const LocalIndex cell, const Vector &field)
+  cell_gradient(const Mesh<dim> &mesh, const LocalIndex cell, const Field &field)
   {
-    Tensor<1, dim> g;
+    const VertexValues<dim> values = mesh.values(cell, field);
+    Tensor<1, dim>          g;
     for (unsigned int i = 0; i <= dim; ++i)
-      g += field.local_element(mesh.cell_nodes[cell][i]) * mesh.cell_gradients[cell][i];
+      g += values[i] * mesh.cell_gradients[cell][i];
     return g;
   }
 
@@ -62,10 +63,10 @@ namespace treacle
 
   /// Of a P1 field, volume-weighted means over the cells around an owned node that
   /// @p counts holds for.
-  template <int dim, typename Counts>
+  template <int dim, typename Field, typename Counts>
   MeanGradient<dim>
   mean_gradient(const Mesh<dim>  &mesh,
-                const Vector     &field,
+                const Field      &field,
                 const LocalIndex  node,
                 const Counts     &counts)
   {
@@ -87,9 +88,9 @@ namespace treacle
   }
 
   /// The same over all cells around the node.
-  template <int dim>
+  template <int dim, typename Field>
   MeanGradient<dim>
-  mean_gradient(const Mesh<dim> &mesh, const Vector &field, const LocalIndex node)
+  mean_gradient(const Mesh<dim> &mesh, const Field &field, const LocalIndex node)
   {
     return mean_gradient(mesh, field, node, [](const LocalIndex) { return true; });
   }
