@@ -3,6 +3,7 @@
 
 #include <treacle/fields/gradients.h>
 #include <treacle/fields/layers.h>
+#include <treacle/fields/solid_normal.h>
 #include <treacle/transport/surface_divergence.h>
 #include <treacle/transport/surface_velocity.h>
 #include <treacle/transport/velocity_in_time.h>
@@ -121,6 +122,57 @@ namespace treacle
         domain.data, is_known, std::vector<unsigned char>(mesh.n_owned_nodes(), all), n_layers, added);
       return added;
     }
+
+    /// The speed along @p n (unit) of a node in a solid with which it is the solid's on the wall: it has the slope that
+    /// least squares give it between the wall and the free nodes around, no farther in than they are out.
+    template <int dim>
+    double
+    speed_behind_wall(const LiquidDomain<dim> &domain,
+                      const LocalIndex         node,
+                      const Tensor<1, dim>    &n,
+                      const NodeVector<dim>   &v)
+    {
+      const double wall     = domain.prescribed[node] * n;
+      double       product = 0, square = 0, farthest = 0;
+      for (const auto &neighbour : domain.data.neighbours(node))
+        if (const double distance = domain.solid_distance[neighbour.node];
+            distance > 0 && domain.constrained[neighbour.node] == 0)
+          {
+            product += distance * (v.value(neighbour.node) * n - wall);
+            square += distance * distance;
+            farthest = std::max(farthest, distance);
+          }
+      return square == 0 ? wall :
+                           wall + product / square * std::max(domain.solid_distance[node], -farthest);
+    }
+
+    /// In solids that liquid touches v is theirs along their normal, on the wall: it does not go through it.
+    template <int dim>
+    void
+    stop_at_solids(const State<dim> &state, const LiquidDomain<dim> &domain, NodeVector<dim> &v)
+    {
+      const NodeVector<dim> old = combined(1, v, 0, v);
+      for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
+        if (domain.solid_distance[node] <= 0 && state.phi.local_element(node) <= 0)
+          {
+            const Tensor<1, dim> n = solid_normal(domain, node);
+            v.set(node,
+                  v.value(node) + (speed_behind_wall(domain, node, n, old) - v.value(node) * n) * n);
+          }
+      v.update_ghost_values();
+    }
+
+    /// Set v at nodes of walls and solids that @p is_continued (node) holds for to that of the nodes beside them.
+    template <int dim, typename IsContinued>
+    void
+    continue_at_walls(const LiquidDomain<dim> &domain, const IsContinued &is_continued, NodeVector<dim> &v)
+    {
+      Vector is_known(domain.mesh.nodes);
+      for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
+        is_known.local_element(node) =
+          domain.constrained[node] == 0 || domain.is_emitter_node[node] || !is_continued(node);
+      continue_velocity(domain.data, is_known, domain.constrained, 3, v);
+    }
   } // namespace
 
   template <int dim>
@@ -131,14 +183,16 @@ namespace treacle
                    const double             distance,
                    const NodeVector<dim>   *gradient)
   {
-    const Mesh<dim> &mesh   = domain.mesh;
-    NodeVector<dim>  result = combined(1, v, 1, linear_part(state, domain, v, distance));
-    Vector           is_free(mesh.nodes);
+    NodeVector<dim> result   = combined(1, v, 1, linear_part(state, domain, v, distance));
+    const auto      is_solid = [&](const LocalIndex node) { return domain.solid_distance[node] <= 0; };
+    if (domain.scene.has_solids())
+      {
+        continue_at_walls(domain, is_solid, result);
+        stop_at_solids(state, domain, result);
+      }
     if (gradient != nullptr)
       remove_divergence_at_surface(state.phi, *gradient, domain, result);
-    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      is_free.local_element(node) = domain.constrained[node] == 0 || domain.is_emitter_node[node];
-    continue_velocity(domain.data, is_free, domain.constrained, 3, result);
+    continue_at_walls(domain, std::not_fn(is_solid), result);
     return result;
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/fields/gradients.h>
+#include <treacle/fields/solid_normal.h>
 #include <treacle/viscosity/slip.h>
 
 #include <algorithm>
@@ -48,15 +48,6 @@ namespace treacle
       return held & domain.constrained[node];
     }
 
-    /// Out of the solid that a node is in; zero where it has two sides there, as in a plate.
-    template <int dim>
-    Tensor<1, dim>
-    normal(const LiquidDomain<dim> &domain, const LocalIndex node)
-    {
-      const MeanGradient<dim> slope = mean_gradient(domain.mesh, domain.solid_distance, node);
-      return slope.mean.norm() > 0.5 * slope.length ? slope.mean / slope.mean.norm() : Tensor<1, dim>();
-    }
-
     /// 1 at active nodes of which walls and solids hold less where the liquid is thin.
     template <int dim>
     Vector
@@ -67,7 +58,7 @@ namespace treacle
         slips.local_element(node) = domain.is_active_node[node] && !domain.is_emitter_node[node] &&
                                     domain.constrained[node] != held_by_slip(domain, node) &&
                                     is_thin(domain, node, longest_step) &&
-                                    (domain.solid_distance[node] > 0 || normal(domain, node) != Tensor<1, dim>());
+                                    (domain.solid_distance[node] > 0 || solid_normal(domain, node) != Tensor<1, dim>());
       slips.update_ghost_values();
       return slips;
     }
@@ -112,7 +103,7 @@ namespace treacle
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       if (is_slipping(node) && domain.solid_distance[node] <= 0)
         {
-          const Tensor<1, dim> n        = normal(domain, node);
+          const Tensor<1, dim> n        = solid_normal(domain, node);
           const double         k        = strength(domain, node);
           result.springs.strength[node] = k * symmetrize(outer_product(n, n));
           result.springs.pull[node]     = k * (domain.prescribed[node] * n) * n;
