@@ -13,9 +13,9 @@ namespace treacle
   ///   the faces knows nothing beyond the last of them and continues it as a constant: a wave
   ///   would be late as if its surface lay a third of a leaf deeper (case C4).
   /// - at walls and in solids the velocity of the nodes beside them. With the wall's own a film of
-  ///   air would remain under all that falls on it, for a P1 velocity vanishes there. Where liquid touches them it is the wall's along
-  ///   their normal: with that of the nodes beside it a film thinner than a leaf would go into the wall.
-  /// - beside the surface, after all that, without divergence (surface_divergence.h), given the @p gradient of phi at nodes; null for
+  ///   air would remain under all that falls on it, for a P1 velocity vanishes there. In solids that liquid touches it is theirs along
+  ///   their normal: with that of the nodes beside them a film thinner than a leaf would go into the wall.
+  /// - beside the surface without divergence (surface_divergence.h), given the @p gradient of phi at nodes; null for
   ///   what pushes liquid out of walls, which has some.
   ///
   /// Velocity itself is not advected with this one: each step would continue what the step
