@@ -8,6 +8,8 @@
 #include <treacle/transport/surface_velocity.h>
 #include <treacle/transport/velocity_in_time.h>
 
+#include <functional>
+
 namespace treacle
 {
   namespace
@@ -132,7 +134,7 @@ namespace treacle
                       const Tensor<1, dim>    &n,
                       const NodeVector<dim>   &v)
     {
-      const double wall     = domain.prescribed[node] * n;
+      const double wall    = domain.prescribed[node] * n;
       double       product = 0, square = 0, farthest = 0;
       for (const auto &neighbour : domain.data.neighbours(node))
         if (const double distance = domain.solid_distance[neighbour.node];
@@ -151,13 +153,11 @@ namespace treacle
     void
     stop_at_solids(const State<dim> &state, const LiquidDomain<dim> &domain, NodeVector<dim> &v)
     {
-      const NodeVector<dim> old = combined(1, v, 0, v);
       for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
         if (domain.solid_distance[node] <= 0 && state.phi.local_element(node) <= 0)
           {
             const Tensor<1, dim> n = solid_normal(domain, node);
-            v.set(node,
-                  v.value(node) + (speed_behind_wall(domain, node, n, old) - v.value(node) * n) * n);
+            v.set(node, v.value(node) + (speed_behind_wall(domain, node, n, v) - v.value(node) * n) * n);
           }
       v.update_ghost_values();
     }
