@@ -54,7 +54,7 @@ namespace treacle
       fs::remove_all(directory, ignored);
     }
 
-    const std::string scalar_prefix = "Scalar ", format_version = "6";
+    const std::string scalar_prefix = "Scalar ", format_version = "7";
 
     template <int dim>
     void
@@ -74,7 +74,8 @@ namespace treacle
           << "\nUpper corner = " << to_text(upper, 17) << '\n';
       if (mesh.is_lattice())
         out << "Root cells = " << mesh.octree().parameters().root_cells
-            << "\nSurface level = " << mesh.octree().parameters().surface_level << '\n';
+            << "\nSurface level = " << mesh.octree().parameters().surface_level
+            << "\nSize factor = " << mesh.octree().size_factor() << '\n';
       for (const auto &[name, value] : progress.scalars)
         out << scalar_prefix << name << " = " << value << '\n';
     }
@@ -164,7 +165,7 @@ namespace treacle
                       std::to_string(parameters.surface_level));
 
     const auto mesh = std::make_shared<const Mesh<dim>>(
-      read_octree<dim>(comm, directory + "/leaves", parameters));
+      read_octree<dim>(comm, directory + "/leaves", parameters, std::stod(info.get("Size factor"))));
     require(info.get("Mesh fingerprint") == fingerprint(*mesh),
             "The checkpoint \"" + directory + "\" is damaged: its leaves do not make the mesh "
             "that was saved.");

@@ -65,7 +65,8 @@ namespace treacle
   std::shared_ptr<const Octree<dim>>
   read_octree(const MPI_Comm                         &comm,
               const std::string                      &path,
-              const typename Octree<dim>::Parameters &parameters)
+              const typename Octree<dim>::Parameters &parameters,
+              const double                            size_factor)
   {
     struct Saved
     {
@@ -100,7 +101,8 @@ namespace treacle
         for (const Leaf<dim> &leaf : leaves)
           weights.push_back(std::max(saved_of(leaf).weight, 1u));
         return weights;
-      });
+      },
+      size_factor);
   }
 
   template <int dim>
@@ -131,7 +133,8 @@ namespace treacle
   template std::shared_ptr<const Octree<dim>> read_octree(                                \
     const MPI_Comm &,                                                                     \
     const std::string &,                                                                  \
-    const Octree<dim>::Parameters &);                                                     \
+    const Octree<dim>::Parameters &,                                                      \
+    const double);                                                                        \
   template std::string fingerprint(const Mesh<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

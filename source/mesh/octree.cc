@@ -26,10 +26,12 @@ namespace treacle
   Octree<dim>::Octree(const MPI_Comm   &comm,
                       const Parameters &parameters,
                       const Criterion  &criterion,
-                      const Weight     &weight)
+                      const Weight     &weight,
+                      const double      size_factor)
     : comm(comm)
     , prm(parameters)
     , triangulation(comm)
+    , larger(size_factor)
   {
     const std::vector<unsigned int> n = prm.root_counts();
     unit                              = 0.5 * prm.finest_size();

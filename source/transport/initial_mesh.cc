@@ -157,7 +157,10 @@ namespace treacle
           if (level > prm.coarsest_at_surface() && !growth.is_full(*octree) && !is_too_fine(*mesh, size) &&
               Bands<dim>(*octree, scene, 0., points(1), false).are_in_leaves())
             return mesh;
-          octree = growth.grow_around(*octree, points);
+          const auto finer = growth.grow_around(*octree, points);
+          if (fingerprint(*finer) == fingerprint(*octree))
+            return mesh;
+          octree = finer;
         }
     }
   } // namespace
@@ -179,7 +182,7 @@ namespace treacle
     });
     // first where the distance is small, then around what was found: an
     // expression need not be a distance
-    const auto octree = growth.grow(around_distances(comm, prm, scene));
+    const auto octree = growth.grow(around_distances(comm, prm, scene), growth.largest_factor());
     if (!sizing.is_uniform_at_surface())
       return mesh_by_sizes(octree, sizing, growth, scene);
     const BandPoints<dim> points =

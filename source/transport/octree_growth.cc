@@ -21,11 +21,21 @@ namespace treacle
         result.push_back((phi[i] < 0 ? 14 : 3) + (is_within(prm, leaves[i], phi[i], 0.) ? 10 : 0));
       return result;
     }
+
+    /// The next larger leaves that Maximum cells is met with.
+    constexpr double coarser = 1.25;
+
+    /// Which power of that a factor is.
+    int
+    power_of(const double factor)
+    {
+      return std::lround(std::log(factor) / std::log(coarser));
+    }
   } // namespace
 
   template <int dim>
   std::shared_ptr<const Octree<dim>>
-  OctreeGrowth<dim>::grow(const typename Octree<dim>::Criterion &is_near) const
+  OctreeGrowth<dim>::grow(const typename Octree<dim>::Criterion &is_near, const double size_factor) const
   {
     return std::make_shared<const Octree<dim>>(
       comm,
@@ -43,7 +53,8 @@ namespace treacle
       },
       [&](const std::vector<Leaf<dim>> &leaves) {
         return costs<dim>(prm, leaves, phi_at_centres(leaves));
-      });
+      },
+      size_factor);
   }
 
   template <int dim>
@@ -59,28 +70,37 @@ namespace treacle
   {
     const auto with = [&](const double factor) {
       const Bands<dim> bands(octree, scene, time, points(factor), false);
-      return grow([&](const std::vector<Leaf<dim>> &leaves) { return bands.touch(leaves); });
+      return grow([&](const std::vector<Leaf<dim>> &leaves) { return bands.touch(leaves); }, factor);
     };
     if (prm.maximum_cells == 0)
       return with(1);
-    // powers of it, by bisection from the coarse end: no memory may hold the finest
-    constexpr double coarser = 1.25;
-    const double     largest = prm.size_of(prm.coarsest_at_surface()) / prm.size_of(prm.level_asked());
-    int              least = 0, most = std::ceil(std::log(largest) / std::log(coarser));
-    auto             result = with(std::pow(coarser, most));
-    while (least < most && !is_full(*result))
+    // from where it was in growing strides, until it lies between two, then by bisection: no memory may hold the finest
+    const int largest = power_of(largest_factor());
+    int       least = 0, most = largest + 1, power = std::min(power_of(octree.size_factor()), largest);
+    std::shared_ptr<const Octree<dim>> result;
+    for (int stride = 1; least < most; stride *= 2)
       {
-        const int  middle = (least + most) / 2;
-        const auto finer  = with(std::pow(coarser, middle));
-        if (is_full(*finer))
-          least = middle + 1;
+        auto tried = with(std::pow(coarser, power));
+        if (is_full(*tried) && power < largest)
+          least = power + 1;
         else
           {
-            most   = middle;
-            result = finer;
+            most   = power;
+            result = std::move(tried);
           }
+        power = !result    ? std::min(power + stride, largest) :
+                least == 0 ? std::max(power - stride, 0) :
+                             (least + most) / 2;
       }
     return result;
+  }
+
+  template <int dim>
+  double
+  OctreeGrowth<dim>::largest_factor() const
+  {
+    const double largest = prm.size_of(prm.coarsest_at_surface()) / prm.size_of(prm.level_asked());
+    return prm.maximum_cells == 0 ? 1. : std::pow(coarser, std::ceil(std::log(largest) / std::log(coarser)));
   }
 
   template <int dim>
@@ -96,10 +116,21 @@ namespace treacle
   std::vector<double>
   OctreeGrowth<dim>::phi_at_centres(const std::vector<Leaf<dim>> &leaves) const
   {
+    std::vector<VertexKey>  unknown;
     std::vector<Point<dim>> x;
     for (const Leaf<dim> &leaf : leaves)
-      x.push_back(centre<dim>(prm, leaf));
-    return phi(x);
+      if (const VertexKey key = pack<dim>(leaf.centre()); known_phi.count(key) == 0)
+        {
+          unknown.push_back(key);
+          x.push_back(centre<dim>(prm, leaf));
+        }
+    const std::vector<double> found = phi(x);
+    for (unsigned int i = 0; i < unknown.size(); ++i)
+      known_phi[unknown[i]] = found[i];
+    std::vector<double> result;
+    for (const Leaf<dim> &leaf : leaves)
+      result.push_back(known_phi.at(pack<dim>(leaf.centre())));
+    return result;
   }
 
   template <int dim>

@@ -15,11 +15,15 @@ namespace treacle
     /// By how much leaves may be larger than the surface asks for before a new mesh is made, lest
     /// meshes flicker.
     constexpr double too_large = 1.25;
+    /// The same where Maximum cells makes them larger: such a mesh is looked at again in a few steps, and on coarse leaves
+    /// a surface asks for others than it did on the fine ones before.
+    constexpr double too_large_if_bounded = 2;
     /// Of all leaves, those that may be too large within a leaf of the surface before a new mesh is made,
     /// as where it went on as nobody expected. Where the surface is, they never are.
     constexpr double most_missing = 0.002;
-    /// How often a coarser mesh is looked for, and the part of the leaves that it may have.
-    constexpr unsigned int steps_between_looks = 8;
+    /// How often a coarser mesh is looked for, and the part of the leaves that it may have; how often a better one where Maximum
+    /// cells bounds them.
+    constexpr unsigned int steps_between_looks = 8, if_bounded = 4;
     constexpr double       worth_while         = 0.7;
 
     /// The places that the vertices of the surface would pass in the steps after the next, so
@@ -99,11 +103,13 @@ namespace treacle
       const std::vector<AskedSize<dim>> &inside; ///< what the velocity asks for
       const Vector                   &size;  ///< that it asks for (m), at nodes
 
-      /// Are leaves as fine as it asks for, or nearly so, but for a few beside it? Collective.
+      /// Are leaves as fine as it asks for and the octree's factor allows, or nearly so, but for a few beside it? Collective.
       bool
       is_in_leaves_of(const Octree<dim> &octree, const Scene<dim> &scene, const double time) const
       {
-        BandPoints<dim> points = points_at(levels(too_large));
+        const bool      is_bounded = octree.parameters().maximum_cells > 0;
+        BandPoints<dim> points =
+          points_at(levels((is_bounded ? too_large_if_bounded : too_large) * octree.size_factor()));
         append_inside(points, too_large);
         return Bands<dim>(octree, scene, time, points, true).are_in_leaves(most_missing * n_leaves(octree));
       }
@@ -176,19 +182,6 @@ namespace treacle
     {
       return {octree.leaves().begin(), octree.leaves().begin() + octree.n_owned_leaves()};
     }
-
-    /// What the leaves at the surface are, where it asks for smaller ones.
-    template <int dim>
-    Vector
-    as_they_are(const Mesh<dim> &mesh, const Vector &size)
-    {
-      Vector result = mesh.zeros(mesh.nodes);
-      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-        result.local_element(node) =
-          std::max(size.local_element(node), surface_size_at_node(mesh, node));
-      result.update_ghost_values();
-      return result;
-    }
   } // namespace
 
   template <int dim>
@@ -219,16 +212,17 @@ namespace treacle
     const Vector size = sizing.at_surface(state, surface);
     // what a bound keeps from being finer stays as it is until it is looked for a better mesh
     const bool             is_bounded = prm.maximum_cells > 0;
-    const Vector           present    = is_bounded ? as_they_are(mesh, size) : Vector();
     const auto             jumps      = jumps_after(state, dt);
     const auto             inside     = sizes_by_velocity(state, domain, dt);
-    const NextSurface<dim> moved{mesh, surface.facets, next, markers, jumps, inside, size},
-      held{mesh, surface.facets, next, markers, jumps, inside, is_bounded ? present : size};
+    const NextSurface<dim> moved{mesh, surface.facets, next, markers, jumps, inside, size};
     const bool is_fine_enough =
-      held.is_in_leaves_of(octree, scene, time) &&
+      moved.is_in_leaves_of(octree, scene, time) &&
       !(sizing.asks_in_liquid(time) && growth.is_any_too_coarse(owned_leaves(octree)));
-    if (is_fine_enough &&
-        (state.step == 0 || state.step % steps_between_looks != 0 || !(is_bounded || prm.velocity_error > 0 || is_too_fine(mesh, size))))
+    const bool is_time_to_look =
+      state.step > 0 && (is_bounded ? state.step % if_bounded == 0 :
+                                      state.step % steps_between_looks == 0 &&
+                                        (prm.velocity_error > 0 || is_too_fine(mesh, size)));
+    if (is_fine_enough && !is_time_to_look)
       return state.mesh;
     const auto tree =
       growth.grow_around(octree, [&](const double factor) { return moved.points_ahead(factor); });

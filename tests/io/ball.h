@@ -79,7 +79,8 @@ namespace tests
         for (const Leaf<dim> &leaf : leaves)
           weights.push_back(leaf.size == 2 ? 3 : 1);
         return weights;
-      });
+      },
+      1.5625);
     State<dim>       state(std::make_shared<const Mesh<dim>>(octree));
     const Mesh<dim> &mesh     = *state.mesh;
     const auto       velocity = [&](const Point<dim> &x) {

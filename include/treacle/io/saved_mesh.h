@@ -16,13 +16,14 @@ namespace treacle
   void
   write_leaves(const Octree<dim> &octree, const std::string &path);
 
-  /// The octree that such a file describes; with the parameters of the saved one it has the
+  /// The octree that such a file describes, and its size factor; with the parameters of the saved one it has the
   /// same partition on the same number of ranks.
   template <int dim>
   std::shared_ptr<const Octree<dim>>
   read_octree(const MPI_Comm                         &comm,
               const std::string                      &path,
-              const typename Octree<dim>::Parameters &parameters);
+              const typename Octree<dim>::Parameters &parameters,
+              const double                            size_factor);
 
   /// A hash of the cells, their vertices and where these lie, in the order of the cells'
   /// numbers (of a file: the order there): whatever the partition.

@@ -36,7 +36,8 @@ namespace treacle
     Octree(const MPI_Comm   &comm,
            const Parameters &parameters,
            const Criterion  &criterion,
-           const Weight     &weight = &alike);
+           const Weight     &weight      = &alike,
+           const double      size_factor = 1);
 
     const MPI_Comm &
     communicator() const
@@ -69,6 +70,13 @@ namespace treacle
     root_size() const
     {
       return 2 << prm.surface_level;
+    }
+
+    /// By how much the leaves along the surface may be larger than it asks for, lest there are more than Maximum cells.
+    double
+    size_factor() const
+    {
+      return larger;
     }
 
     /// What the partition weighed the owned leaves by.
@@ -160,6 +168,7 @@ namespace treacle
 
     LatticePoint<dim>                           box;
     double                                      unit;
+    double                                      larger;
     std::vector<Leaf<dim>>                      all_leaves;
     std::vector<unsigned int>                   weights;
     std::unordered_map<VertexKey, unsigned int> by_origin;

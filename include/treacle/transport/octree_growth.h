@@ -33,17 +33,22 @@ namespace treacle
     {}
 
     /// Refine where @p is_near says, inside the liquid to what is asked for there, and
-    /// everywhere to the air level; every rank has about the same work with it.
+    /// everywhere to the air level; every rank has about the same work with it. The octree remembers the
+    /// factor with which its surface was asked (Octree::size_factor).
     std::shared_ptr<const Octree<dim>>
-    grow(const typename Octree<dim>::Criterion &is_near) const;
+    grow(const typename Octree<dim>::Criterion &is_near, const double size_factor) const;
 
     /// The points that ask for leaves, which may be larger by a factor than what asks for them.
     using PointsByFactor = std::function<BandPoints<dim>(const double)>;
 
-    /// One with bands around points, whose cubes are those of @p octree: with the smallest factor for
-    /// which it is not full.
+    /// One with bands around points, whose cubes are those of @p octree: with the smallest factor, a power of 1.25, for
+    /// which it is not full. It is looked for from that of @p octree on, with few others if it is near.
     std::shared_ptr<const Octree<dim>>
     grow_around(const Octree<dim> &octree, const PointsByFactor &points) const;
+
+    /// With it all of the surface has leaves of its coarsest level; 1 if cells are not bounded.
+    double
+    largest_factor() const;
 
     /// Has it more than Maximum cells?
     bool
@@ -55,6 +60,7 @@ namespace treacle
     is_any_too_coarse(const std::vector<Leaf<dim>> &leaves) const;
 
   private:
+    /// Each leaf is asked for once, however many octrees have it.
     std::vector<double>
     phi_at_centres(const std::vector<Leaf<dim>> &leaves) const;
 
@@ -79,6 +85,8 @@ namespace treacle
     const Scene<dim>            &scene;
     const double                 time;
     const LevelSet               phi;
+
+    mutable std::unordered_map<VertexKey, double> known_phi; ///< at centres of leaves, in lattice units
   };
 
   /// Of leaves on all ranks, whatever rank each is on: the same for the same octree. Collective.
