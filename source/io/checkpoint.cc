@@ -165,7 +165,7 @@ namespace treacle
                       std::to_string(parameters.surface_level));
 
     const auto mesh = std::make_shared<const Mesh<dim>>(
-      read_octree<dim>(comm, directory + "/leaves", parameters, std::stod(info.get("Size factor"))));
+      read_octree<dim>(comm, directory + "/leaves", parameters, info.number("Size factor")));
     require(info.get("Mesh fingerprint") == fingerprint(*mesh),
             "The checkpoint \"" + directory + "\" is damaged: its leaves do not make the mesh "
             "that was saved.");

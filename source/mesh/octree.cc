@@ -31,7 +31,7 @@ namespace treacle
     : comm(comm)
     , prm(parameters)
     , triangulation(comm)
-    , larger(size_factor)
+    , factor(size_factor)
   {
     const std::vector<unsigned int> n = prm.root_counts();
     unit                              = 0.5 * prm.finest_size();

@@ -159,7 +159,7 @@ namespace treacle
             return mesh;
           const auto finer = growth.grow_around(*octree, points);
           if (fingerprint(*finer) == fingerprint(*octree))
-            return mesh;
+            return std::make_shared<const Mesh<dim>>(finer);
           octree = finer;
         }
     }

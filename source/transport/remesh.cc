@@ -15,16 +15,24 @@ namespace treacle
     /// By how much leaves may be larger than the surface asks for before a new mesh is made, lest
     /// meshes flicker.
     constexpr double too_large = 1.25;
-    /// The same where Maximum cells makes them larger: such a mesh is looked at again in a few steps, and on coarse leaves
-    /// a surface asks for others than it did on the fine ones before.
+    /// The same where Maximum cells makes them larger by a factor: such a mesh is looked at again in a few steps, and on
+    /// coarse leaves a surface asks for others than it did on the fine ones before.
     constexpr double too_large_if_bounded = 2;
     /// Of all leaves, those that may be too large within a leaf of the surface before a new mesh is made,
     /// as where it went on as nobody expected. Where the surface is, they never are.
     constexpr double most_missing = 0.002;
-    /// How often a coarser mesh is looked for, and the part of the leaves that it may have; how often a better one where Maximum
-    /// cells bounds them.
-    constexpr unsigned int steps_between_looks = 8, if_bounded = 4;
+    /// How often a coarser mesh is looked for, and the part of the leaves that it may have; how often another one, of any size,
+    /// where there is such a factor.
+    constexpr unsigned int steps_between_looks = 8, steps_if_bounded = 4;
     constexpr double       worth_while         = 0.7;
+
+    /// The factor by which a bound makes leaves larger; 1 without one, whatever the octree was made with.
+    template <int dim>
+    double
+    factor_of_bound(const Octree<dim> &octree)
+    {
+      return octree.parameters().maximum_cells > 0 ? octree.size_factor() : 1.;
+    }
 
     /// The places that the vertices of the surface would pass in the steps after the next, so
     /// that a new mesh serves for some: at s leaves a step for 3 / sqrt(s) steps. A mesh costs
@@ -103,13 +111,12 @@ namespace treacle
       const std::vector<AskedSize<dim>> &inside; ///< what the velocity asks for
       const Vector                   &size;  ///< that it asks for (m), at nodes
 
-      /// Are leaves as fine as it asks for and the octree's factor allows, or nearly so, but for a few beside it? Collective.
+      /// Are leaves as fine as it asks for and a bound allows, or nearly so, but for a few beside it? Collective.
       bool
       is_in_leaves_of(const Octree<dim> &octree, const Scene<dim> &scene, const double time) const
       {
-        const bool      is_bounded = octree.parameters().maximum_cells > 0;
-        BandPoints<dim> points =
-          points_at(levels((is_bounded ? too_large_if_bounded : too_large) * octree.size_factor()));
+        const double    factor = factor_of_bound(octree);
+        BandPoints<dim> points = points_at(levels(factor * (factor > 1 ? too_large_if_bounded : too_large)));
         append_inside(points, too_large);
         return Bands<dim>(octree, scene, time, points, true).are_in_leaves(most_missing * n_leaves(octree));
       }
@@ -210,8 +217,7 @@ namespace treacle
         return phi;
       });
     const Vector size = sizing.at_surface(state, surface);
-    // what a bound keeps from being finer stays as it is until it is looked for a better mesh
-    const bool             is_bounded = prm.maximum_cells > 0;
+    const bool             is_bounded = factor_of_bound(octree) > 1;
     const auto             jumps      = jumps_after(state, dt);
     const auto             inside     = sizes_by_velocity(state, domain, dt);
     const NextSurface<dim> moved{mesh, surface.facets, next, markers, jumps, inside, size};
@@ -219,7 +225,7 @@ namespace treacle
       moved.is_in_leaves_of(octree, scene, time) &&
       !(sizing.asks_in_liquid(time) && growth.is_any_too_coarse(owned_leaves(octree)));
     const bool is_time_to_look =
-      state.step > 0 && (is_bounded ? state.step % if_bounded == 0 :
+      state.step > 0 && (is_bounded ? state.step % steps_if_bounded == 0 :
                                       state.step % steps_between_looks == 0 &&
                                         (prm.velocity_error > 0 || is_too_fine(mesh, size)));
     if (is_fine_enough && !is_time_to_look)

@@ -55,6 +55,17 @@ find_case(const std::string &name)
             1,
             2.5,
             turn};
+  if (name == "deformation") // of a sphere, in 3D; LeVeque (1996), section 9.5, and Enright et al. (2002), section 4.2
+    return {"sqrt((x-0.35)^2+(y-0.35)^2+(z-0.35)^2)-0.15", 3, 2, [=](const Point<dim> &x, const double t) {
+              Tensor<1, dim> v;
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  v[d] = (d == 0 ? 2 : -1) * std::cos(pi * t / 3) * std::pow(std::sin(pi * x[d]), 2);
+                  for (unsigned int e = 0; e < dim; ++e)
+                    v[d] *= e == d ? 1 : std::sin(2 * pi * x[e]);
+                }
+              return v;
+            }};
   return {ball, 8, 1, [=](const Point<dim> &x, const double t) { // vortex
             Tensor<1, dim> v;
             const double   sx = std::sin(pi * x[0]), sy = std::sin(pi * x[1]);

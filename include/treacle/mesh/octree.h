@@ -72,11 +72,12 @@ namespace treacle
       return 2 << prm.surface_level;
     }
 
-    /// By how much the leaves along the surface may be larger than it asks for, lest there are more than Maximum cells.
+    /// By how much the leaves along the surface may be larger than it asks for, lest there are more than Maximum cells;
+    /// others may give the same leaves.
     double
     size_factor() const
     {
-      return larger;
+      return factor;
     }
 
     /// What the partition weighed the owned leaves by.
@@ -168,7 +169,7 @@ namespace treacle
 
     LatticePoint<dim>                           box;
     double                                      unit;
-    double                                      larger;
+    double                                      factor;
     std::vector<Leaf<dim>>                      all_leaves;
     std::vector<unsigned int>                   weights;
     std::unordered_map<VertexKey, unsigned int> by_origin;

@@ -41,8 +41,8 @@ namespace treacle
     /// The points that ask for leaves, which may be larger by a factor than what asks for them.
     using PointsByFactor = std::function<BandPoints<dim>(const double)>;
 
-    /// One with bands around points, whose cubes are those of @p octree: with the smallest factor, a power of 1.25, for
-    /// which it is not full. It is looked for from that of @p octree on, with few others if it is near.
+    /// One with bands around points, whose cubes are those of @p octree: with a factor, a power of 1.25, for which it is
+    /// not full, but is for the next smaller one. It is looked for from that of @p octree on, with few others if it is near.
     std::shared_ptr<const Octree<dim>>
     grow_around(const Octree<dim> &octree, const PointsByFactor &points) const;
 
@@ -60,7 +60,7 @@ namespace treacle
     is_any_too_coarse(const std::vector<Leaf<dim>> &leaves) const;
 
   private:
-    /// Each leaf is asked for once, however many octrees have it.
+    /// Each rank asks for a leaf once, however many octrees have it.
     std::vector<double>
     phi_at_centres(const std::vector<Leaf<dim>> &leaves) const;
 
@@ -89,6 +89,16 @@ namespace treacle
     mutable std::unordered_map<VertexKey, double> known_phi; ///< at centres of leaves, in lattice units
   };
 
+  /// Steele, Lea and Flood's (2014) mixture of bits: sums of it do not tell symmetries.
+  inline std::uint64_t
+  mixed(std::uint64_t x)
+  {
+    x += 0x9e3779b97f4a7c15ull;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+    return x ^ (x >> 31);
+  }
+
   /// Of leaves on all ranks, whatever rank each is on: the same for the same octree. Collective.
   template <int dim>
   std::uint64_t
@@ -98,7 +108,7 @@ namespace treacle
     for (unsigned int l = 0; l < octree.n_owned_leaves(); ++l)
       {
         const Leaf<dim> &leaf = octree.leaves()[l];
-        sum += (pack<dim>(leaf.origin) + leaf.level) * 0x9e3779b97f4a7c15ull ^ leaf.level;
+        sum += mixed(mixed(pack<dim>(leaf.origin)) + leaf.level);
       }
     return Utilities::MPI::sum(sum, octree.communicator());
   }

@@ -181,4 +181,5 @@ FREE_SURFACE_CASES = {
     "C10 notched disc": carried("notched", 2, 5, 3),
     "C10 disc in a vortex": carried("vortex", 2, 5, 3),
     "C10 sphere in a vortex": carried("vortex", 3, 4, 2),
+    "C10 deformed sphere": carried("deformation", 3, 4, 2),
 }
