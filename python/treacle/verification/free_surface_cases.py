@@ -139,8 +139,9 @@ def case(file, level, time_step, exact, settings=None, tolerance=0.03, **more):
 
 
 def carried(body, dim, level, n_levels):
-    """One period with a prescribed velocity and a CFL number of 2; no correction of the volume."""
-    return Program("surface/markers", (body, str(dim), "{level}", "2", "marker level set", "12"), level,
+    """One period with a prescribed velocity, a CFL number of 2, and as many markers a cell as are the default; no
+    correction of the volume."""
+    return Program("surface/markers", (body, str(dim), "{level}", "2", "marker level set", str({2: 12, 3: 3}[dim])), level,
                    CARRIED, n_levels=n_levels)
 
 
@@ -181,5 +182,5 @@ FREE_SURFACE_CASES = {
     "C10 notched disc": carried("notched", 2, 5, 3),
     "C10 disc in a vortex": carried("vortex", 2, 5, 3),
     "C10 sphere in a vortex": carried("vortex", 3, 4, 2),
-    "C10 deformed sphere": carried("deformation", 3, 4, 2),
+    "C10 deformed sphere": carried("deformation", 3, 4, 3),
 }
