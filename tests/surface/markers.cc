@@ -3,7 +3,7 @@
 
 // Bodies carried along by a prescribed velocity (case C10): what is lost of their
 // volume and shape, with markers and without. For a person: arguments are the case,
-// dim, level, CFL number, method and markers per cell.
+// dim, level, CFL number, method and, if not the default, markers per cell.
 
 #include "../tests.h"
 #include "../run_scene.h"
@@ -159,13 +159,14 @@ carry(const MPI_Comm                                  &comm,
 
 template <int dim>
 void
-print_for_a_person(char **argv)
+print_for_a_person(const int argc, char **argv)
 {
   using Method = typename SurfaceTracking<dim>::Method;
   typename SurfaceTracking<dim>::Parameters tracking;
   tracking.method            = argv[5] == std::string("level set") ? Method::level_set :
                                                                      Method::marker_level_set;
-  tracking.markers_per_cell  = std::stoi(argv[6]);
+  if (argc > 6)
+    tracking.markers_per_cell = std::stoi(argv[6]);
   tracking.volume_correction = false;
   const Errors e = carry<dim>(
     MPI_COMM_WORLD, argv[1], std::stoi(argv[3]), std::stod(argv[4]), tracking);
@@ -212,8 +213,8 @@ check_thin(const MPI_Comm &comm, const std::string &name, const unsigned int lev
 void
 start(const int argc, char **argv)
 {
-  if (argc > 6)
-    std::stoi(argv[2]) == 2 ? print_for_a_person<2>(argv) : print_for_a_person<3>(argv);
+  if (argc > 5)
+    std::stoi(argv[2]) == 2 ? print_for_a_person<2>(argc, argv) : print_for_a_person<3>(argc, argv);
   else
     on_1_2_3_ranks([](const MPI_Comm &comm) {
       check<2>(comm, "translation", 5);

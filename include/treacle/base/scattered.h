@@ -11,14 +11,21 @@
 
 namespace treacle
 {
-  /// A number in [0, 1) from an integer, the same everywhere (splitmix64).
-  inline double
-  scattered(std::uint64_t z)
+  /// An integer with its bits mixed, the same everywhere (splitmix64).
+  inline std::uint64_t
+  mixed(std::uint64_t z)
   {
     z += 0x9e3779b97f4a7c15ull;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+    return z ^ (z >> 31);
+  }
+
+  /// A number in [0, 1) from an integer, the same everywhere.
+  inline double
+  scattered(const std::uint64_t z)
+  {
+    return static_cast<double>(mixed(z) >> 11) * 0x1p-53;
   }
 
   /// Such a number for a place, by the number of @p size in its coordinates: the same on all ranks.

@@ -16,8 +16,8 @@ namespace treacle
   void
   write_leaves(const Octree<dim> &octree, const std::string &path);
 
-  /// The octree that such a file describes, and its size factor; with the parameters of the saved one it has the
-  /// same partition on the same number of ranks.
+  /// The octree that such a file describes, with a size factor, which the file does not hold; with the parameters of the
+  /// saved one it has the same partition on the same number of ranks.
   template <int dim>
   std::shared_ptr<const Octree<dim>>
   read_octree(const MPI_Comm                         &comm,

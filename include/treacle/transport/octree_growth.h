@@ -4,6 +4,7 @@
 #ifndef treacle_transport_octree_growth_h
 #define treacle_transport_octree_growth_h
 
+#include <treacle/base/scattered.h>
 #include <treacle/transport/bands.h>
 #include <treacle/transport/sizing.h>
 
@@ -89,16 +90,6 @@ namespace treacle
     mutable std::unordered_map<VertexKey, double> known_phi; ///< at centres of leaves, in lattice units
   };
 
-  /// Steele, Lea and Flood's (2014) mixture of bits: sums of it do not tell symmetries.
-  inline std::uint64_t
-  mixed(std::uint64_t x)
-  {
-    x += 0x9e3779b97f4a7c15ull;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-    return x ^ (x >> 31);
-  }
-
   /// Of leaves on all ranks, whatever rank each is on: the same for the same octree. Collective.
   template <int dim>
   std::uint64_t
@@ -108,6 +99,7 @@ namespace treacle
     for (unsigned int l = 0; l < octree.n_owned_leaves(); ++l)
       {
         const Leaf<dim> &leaf = octree.leaves()[l];
+        // mixed, or octrees that are mirror images of each other may have the same sum
         sum += mixed(mixed(pack<dim>(leaf.origin)) + leaf.level);
       }
     return Utilities::MPI::sum(sum, octree.communicator());

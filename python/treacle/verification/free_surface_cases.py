@@ -139,9 +139,8 @@ def case(file, level, time_step, exact, settings=None, tolerance=0.03, **more):
 
 
 def carried(body, dim, level, n_levels):
-    """One period with a prescribed velocity, a CFL number of 2, and as many markers a cell as are the default; no
-    correction of the volume."""
-    return Program("surface/markers", (body, str(dim), "{level}", "2", "marker level set", str({2: 12, 3: 3}[dim])), level,
+    """One period with a prescribed velocity and a CFL number of 2; no correction of the volume."""
+    return Program("surface/markers", (body, str(dim), "{level}", "2", "marker level set"), level,
                    CARRIED, n_levels=n_levels)
 
 
