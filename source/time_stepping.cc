@@ -24,9 +24,11 @@ namespace treacle
     constexpr double worth_halving = 0.6;
     /// What moves by less is not repeated.
     constexpr double half_a_leaf = 0.5;
-    /// Of the kinetic energy and the range of the potential one, that a step may gain before
-    /// it is repeated, and beyond which the run stops.
+    /// Of the kinetic energy and the range of the potential one, that a step may gain before it is repeated, and
+    /// beyond which the run stops.
     constexpr double largest_gain = 0.05, hopeless_gain = 1;
+    /// And a step longer than a leaf, as long as half of it gains a third at most: what is gained at the same rate comes of the mesh.
+    constexpr double gain_of_long = 1e-3, worth_halving_again = 0.3;
     /// Times that a step is halved for that.
     constexpr unsigned int most_halvings = 4;
 
@@ -113,23 +115,27 @@ namespace treacle
     const double                      old_drift  = liquid.domain->total_volume() - volume;
     const double                      crossing   = fastest_crossing(*liquid.domain, old->v);
     const EnergyBudget<dim>           budget(*old, *liquid.domain);
-    double                            past_drift = std::numeric_limits<double>::max();
+    double                            past_drift = std::numeric_limits<double>::max(), past_excess = past_drift;
     for (double dt = size.dt;; dt = 0.5 * info.dt)
       {
         const double leaves = take(liquid, volume, dt, info);
         info.excess         = budget.excess(
           *liquid.state, *liquid.domain, {info.dt, info.dynamics.power, info.emitted});
         const double drift = std::abs(liquid.domain->total_volume() - volume - old_drift);
+        const double way   = info.dt * crossing; // leaves
         if (size.dt > size.falling && info.dt > size.falling && leaves > half_a_leaf)
           ++info.repetitions.motion;
-        else if (drift > largest_drift * volume && info.dt * crossing > half_a_leaf &&
+        else if (drift > largest_drift * volume && way > half_a_leaf &&
                  drift < worth_halving * past_drift)
           ++info.repetitions.volume;
-        else if (info.excess > largest_gain && info.repetitions.energy < most_halvings)
+        else if ((info.excess > largest_gain ||
+                  (info.excess > gain_of_long && way > 1 && info.excess < worth_halving_again * past_excess)) &&
+                 info.repetitions.energy < most_halvings)
           ++info.repetitions.energy;
         else
           break;
-        past_drift = drift;
+        past_drift  = drift;
+        past_excess = info.excess;
         liquid = Liquid<dim>::of(old, scene, liquid_domain);
         volume = old_volume;
         // what was held may have begun to fall: what it did before tells nothing of how

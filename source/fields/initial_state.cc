@@ -9,9 +9,6 @@ namespace treacle
   namespace
   {
     template <int dim>
-    using Distance = std::function<double(const Point<dim> &)>;
-
-    template <int dim>
     void
     check_finite(const Mesh<dim> &mesh, const std::string &name, const Distance<dim> &distance)
     {
@@ -100,8 +97,8 @@ namespace treacle
 
   namespace
   {
-    /// In leaves: what is given as close to a solid as this touches it, and goes on into it as far as that.
-    constexpr double touching = 0.1, into_solids = 3;
+    /// In leaves: what is given as close to a wall as this touches it; how far from walls that is looked at.
+    constexpr double touching = 0.1, into_solids = 3, before_walls = 4;
 
     /// Of the distance from the scene's solids at t = 0, by differences over +-d (m); a formula's need not have length 1.
     template <int dim>
@@ -117,45 +114,98 @@ namespace treacle
       return result;
     }
 
-    /// The distance to the liquid at t = 0, but in solids that of its image behind the wall where it touches that: nodes would
-    /// see a film of air between two bodies that end at the same place. Near the contact line the free surface goes on
-    /// straight. h (m) is the edge of the leaves.
+    /// The distance @p f to liquid at x as if it went on beyond a wall @p s (m) from there where it touches that: what it has of the
+    /// liquid's end at the wall is no surface. @p away (length 1) leads into the box, h (m) is the edge of the leaves.
     template <int dim>
     double
-    initial_distance(const Scene<dim> &scene, const Point<dim> &x, const double h)
+    beyond_wall(const Distance<dim>  &f,
+                const Point<dim>     &x,
+                const double          s,
+                const Tensor<1, dim> &away,
+                const double          h)
     {
-      const double phi = scene.liquid_distance(x);
-      if (phi <= 0 || !scene.has_solids())
-        return phi;
+      const double value = f(x);
+      const auto   at    = [&](const double way) { return f(x + way * away); };
+      const auto   is_to_wall = [&](const double way, const double phi) {
+        constexpr double small = 0.05; // leaves
+        return phi < touching * h && phi > -(s + way + touching * h) && at(way + small * h) - phi < -0.9 * small * h;
+      };
+      if (s > before_walls * h || !is_to_wall(0, value))
+        return value;
+      // the free surface goes on straight
+      for (const double way : {0.5 * h, h, 2 * h})
+        {
+          const double near = at(way), far = at(2 * way);
+          if (!is_to_wall(way, near) && !is_to_wall(2 * way, far))
+            return std::min(value, 2 * near - far);
+        }
+      return std::min(value, at(before_walls * h - s));
+    }
+
+    /// The same for all sides of the box.
+    template <int dim>
+    Distance<dim>
+    beyond_sides(const Scene<dim> &scene, const double h)
+    {
+      Distance<dim> f = [&scene](const Point<dim> &x) { return scene.liquid_distance(x); };
+      for (unsigned int d = 0; d < dim; ++d)
+        f = [f, d, h, lower = scene.lower_corner()[d], upper = scene.upper_corner()[d]](const Point<dim> &x) {
+          const bool is_low = x[d] - lower < upper - x[d];
+          return beyond_wall<dim>(f,
+                                  x,
+                                  is_low ? x[d] - lower : upper - x[d],
+                                  (is_low ? 1. : -1.) * Point<dim>::unit_vector(d),
+                                  h);
+        };
+      return f;
+    }
+
+    /// The same for solids at t = 0; in them the distance goes on as it is before their wall.
+    template <int dim>
+    double
+    beyond_solids(const Scene<dim> &scene, const Distance<dim> &f, const Point<dim> &x, const double h)
+    {
       const double s = scene.solid_distance(x, 0);
-      if (s >= 0)
-        return phi;
+      if (s > before_walls * h)
+        return f(x);
       const Tensor<1, dim> gradient = solid_gradient(scene, x, 0.01 * h);
       const double         slope    = gradient.norm();
-      if (!(slope > 0) || -s > into_solids * h * slope)
-        return phi;
-      const double         depth = -s / slope;
-      const Tensor<1, dim> out   = gradient / slope;
-      const auto           before = [&](const double way) { return scene.liquid_distance(x + (depth + way) * out); };
-      if (before(touching * h) >= 0)
+      if (!(slope > 0))
+        return f(x);
+      const Tensor<1, dim> away   = gradient / slope;
+      const auto           before = [&](const double way) {
+        return beyond_wall<dim>(f, x + (way - s / slope) * away, way, away, h);
+      };
+      if (s >= 0)
+        return before(s / slope);
+      const double phi = f(x), depth = -s / slope;
+      if (phi <= 0 || depth > into_solids * h || f(x + (depth + touching * h) * away) >= 0)
         return phi;
       const double near = before(0.5 * depth), far = before(depth);
-      const bool   is_free = near > -0.45 * depth && far > -0.9 * depth; // else it is the wall that is near
-      return std::min(phi, is_free ? near + 3 * (near - far) : far);
+      return std::min(phi, near + 3 * (near - far));
     }
   } // namespace
+
+  template <int dim>
+  Distance<dim>
+  initial_distance(const Scene<dim> &scene, const bool has_box, const double h)
+  {
+    const Distance<dim> f = has_box ? beyond_sides(scene, h) :
+                                      [&scene](const Point<dim> &x) { return scene.liquid_distance(x); };
+    if (!scene.has_solids())
+      return f;
+    return [&scene, f, h](const Point<dim> &x) { return beyond_solids<dim>(scene, f, x, h); };
+  }
 
   template <int dim>
   void
   set_initial_level_set(State<dim> &state, const Scene<dim> &scene)
   {
-    const Mesh<dim> &mesh = *state.mesh;
-    std::string      error;
+    const Mesh<dim>    &mesh     = *state.mesh;
+    const Distance<dim> distance = initial_distance(scene, mesh.is_lattice(), mesh.finest_size());
+    std::string         error;
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      keep_error(error, [&] {
-        state.phi.local_element(node) =
-          initial_distance(scene, mesh.node_position[node], mesh.finest_size());
-      });
+      keep_error(error, [&] { state.phi.local_element(node) = distance(mesh.node_position[node]); });
     throw_first(mesh.communicator(), error);
     state.phi.update_ghost_values();
   }
@@ -179,6 +229,7 @@ namespace treacle
 #define INSTANTIATE(dim)                                                                    \
   template void check_bodies(const Mesh<dim> &, const Scene<dim> &);                        \
   template void check_walls(const Mesh<dim> &, const Scene<dim> &, const std::string &);    \
+  template Distance<dim> initial_distance(const Scene<dim> &, const bool, const double);    \
   template void set_initial_level_set(State<dim> &, const Scene<dim> &);                    \
   template void set_initial_velocity(State<dim> &, const LiquidDomain<dim> &);
   INSTANTIATE(2)

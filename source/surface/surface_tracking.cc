@@ -78,13 +78,20 @@ namespace treacle
                                const MeshData<dim> &data,
                                const double         volume) const
   {
-    if (prm.volume_correction)
-      correct_volume(state, data, volume);
-    auto surface = std::make_unique<const SurfaceGeometry<dim>>(state.mesh, state.phi);
+    auto surface = shift(state, data, volume);
     if (has_markers())
       remove_stray_markers(state, data.scene, *surface);
     reseed(state, data.scene, *surface);
     return surface;
+  }
+
+  template <int dim>
+  std::unique_ptr<const SurfaceGeometry<dim>>
+  SurfaceTracking<dim>::shift(State<dim> &state, const MeshData<dim> &data, const double volume) const
+  {
+    if (prm.volume_correction)
+      correct_volume(state, data, volume);
+    return std::make_unique<const SurfaceGeometry<dim>>(state.mesh, state.phi);
   }
 
   template <int dim>

@@ -20,9 +20,10 @@ namespace treacle
     {
       const MeshCells<dim> mesh = LatticeMesh<dim>(octree).take_cells();
       const unsigned int   rank = Utilities::MPI::this_mpi_process(octree->communicator());
+      const Distance<dim>  distance = initial_distance(scene, true, octree->parameters().finest_size());
       std::vector<double>  phi;
       for (const auto &vertex : mesh.vertices)
-        phi.push_back(scene.liquid_distance(vertex.position));
+        phi.push_back(distance(vertex.position));
       std::vector<BandPoint<dim>> points;
       for (const auto &cell : mesh.cells)
         {

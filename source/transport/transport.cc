@@ -19,6 +19,8 @@ namespace treacle
     /// Part of the volume that is pushed out of walls and other liquid in a step, and not left to the even
     /// correction: that lifts the whole body.
     constexpr double least_lost = 1e-4;
+    /// A surface that moves by fewer leaves keeps its distances and markers.
+    constexpr double far = 0.1;
 
     /// Of the volume @p wanted, what is missing in walls and liquid, and what is lost otherwise, in a @p state that won some
     /// (m^dim). Collective.
@@ -127,7 +129,6 @@ namespace treacle
                            const double       volume) const
   {
     State<dim>  &state = *liquid.state;
-    const double reach = time_step.reach(state, *liquid.domain);
     const double flux  = flux_through_surface(scene, liquid.surface->facets, *pushed.state);
     if (flux <= 0)
       return;
@@ -144,8 +145,12 @@ namespace treacle
     std::copy(phi.begin(), phi.end(), state.phi.begin());
     state.phi.update_ghost_values();
     state.markers = to_owners(*state.mesh, advection.move_markers());
-    liquid.surface =
-      tracking.advance(state, *liquid.mesh_data, time_step.reach_of_distance(reach, *state.mesh), volume);
+    liquid.surface = dt * fastest_crossing(*pushed.domain, pushed.state->v) > far ?
+                       tracking.advance(state,
+                                        *liquid.mesh_data,
+                                        time_step.reach_of_distance(time_step.reach(state, *liquid.domain), *state.mesh),
+                                        volume) :
+                       tracking.shift(state, *liquid.mesh_data, volume);
     if (state.material)
       state.material->points = to_owners(*state.mesh, advection.move_material());
     settle_material(state, *liquid.mesh_data);

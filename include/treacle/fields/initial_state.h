@@ -6,6 +6,8 @@
 
 #include <treacle/fields/liquid_domain.h>
 
+#include <functional>
+
 namespace treacle
 {
   /// Throws a UserError on all ranks where a liquid or emitter is outside of the mesh or in
@@ -20,8 +22,17 @@ namespace treacle
   void
   check_walls(const Mesh<dim> &mesh, const Scene<dim> &scene, const std::string &file);
 
-  /// The distance to the scene's liquids at t = 0 (m), which go on into solids that they touch; ghosts are up to date.
-  /// Throws a UserError on all ranks where a solid's is not known. Collective.
+  /// Of a point (m), negative in a body.
+  template <int dim>
+  using Distance = std::function<double(const Point<dim> &)>;
+
+  /// The distance to the liquids of a @p scene, which must outlive it, at t = 0. They go on beyond walls that they touch, those of the
+  /// box (if it @p has_box, not an imported mesh) and of solids. @p h (m) is the edge of the leaves. Throws where a solid's is not known.
+  template <int dim>
+  Distance<dim>
+  initial_distance(const Scene<dim> &scene, const bool has_box, const double h);
+
+  /// That distance at the nodes; ghosts are up to date. Throws a UserError on all ranks where it is not known. Collective.
   template <int dim>
   void
   set_initial_level_set(State<dim> &state, const Scene<dim> &scene);

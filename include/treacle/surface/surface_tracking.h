@@ -57,6 +57,10 @@ namespace treacle
       return settle(state, data, volume);
     }
 
+    /// As settle, without a look at the markers, which move along.
+    std::unique_ptr<const SurfaceGeometry<dim>>
+    shift(State<dim> &state, const MeshData<dim> &data, const double volume) const;
+
     /// Markers, if there are to be any, on a surface that has too few.
     void
     reseed(State<dim> &state, const Scene<dim> &scene, const SurfaceGeometry<dim> &surface) const;
