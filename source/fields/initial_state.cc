@@ -128,7 +128,7 @@ namespace treacle
       const auto   at    = [&](const double way) { return f(x + way * away); };
       const auto   is_to_wall = [&](const double way, const double phi) {
         constexpr double small = 0.05; // leaves
-        return phi < touching * h && phi > -(s + way + touching * h) && at(way + small * h) - phi < -0.9 * small * h;
+        return std::abs(phi + s + way) < touching * h && at(way + small * h) - phi < -0.9 * small * h;
       };
       if (s > before_walls * h || !is_to_wall(0, value))
         return value;
@@ -165,20 +165,24 @@ namespace treacle
     double
     beyond_solids(const Scene<dim> &scene, const Distance<dim> &f, const Point<dim> &x, const double h)
     {
+      constexpr double away_from = 20; // leaves; a formula's distance may be too long
+      const double     phi = f(x);
+      if (phi < -(before_walls + touching) * h || phi > away_from * h)
+        return phi;
       const double s = scene.solid_distance(x, 0);
       if (s > before_walls * h)
-        return f(x);
+        return phi;
       const Tensor<1, dim> gradient = solid_gradient(scene, x, 0.01 * h);
       const double         slope    = gradient.norm();
       if (!(slope > 0))
-        return f(x);
+        return phi;
       const Tensor<1, dim> away   = gradient / slope;
       const auto           before = [&](const double way) {
         return beyond_wall<dim>(f, x + (way - s / slope) * away, way, away, h);
       };
       if (s >= 0)
         return before(s / slope);
-      const double phi = f(x), depth = -s / slope;
+      const double depth = -s / slope;
       if (phi <= 0 || depth > into_solids * h || f(x + (depth + touching * h) * away) >= 0)
         return phi;
       const double near = before(0.5 * depth), far = before(depth);

@@ -22,8 +22,12 @@ namespace treacle
       const unsigned int   rank = Utilities::MPI::this_mpi_process(octree->communicator());
       const Distance<dim>  distance = initial_distance(scene, true, octree->parameters().finest_size());
       std::vector<double>  phi;
-      for (const auto &vertex : mesh.vertices)
-        phi.push_back(distance(vertex.position));
+      std::string          error;
+      keep_error(error, [&] {
+        for (const auto &vertex : mesh.vertices)
+          phi.push_back(distance(vertex.position));
+      });
+      throw_first(octree->communicator(), error);
       std::vector<BandPoint<dim>> points;
       for (const auto &cell : mesh.cells)
         {

@@ -88,7 +88,8 @@ namespace
                                     numbers::PI * 0.0625 * 0.8 / 3;
     const std::string volume = dim == 2 ? "Liquid volume (m^2)" : "Liquid volume (m^3)";
     out() << std::setprecision(2) << dim << "D: in a bowl, volume off by " << 100 * (rows.front().at(volume) / exact - 1)
-          << " %, in a step by " << most_in_a_step(rows) << " %, speed " << rows.back().at("Maximum speed (m/s)")
+          << " %, in a step by " << std::setprecision(1) << most_in_a_step(rows) << std::setprecision(2) << " %, speed "
+          << rows.back().at("Maximum speed (m/s)")
           << std::endl;
   }
 
