@@ -27,7 +27,7 @@ namespace treacle
     /// Of the kinetic energy and the range of the potential one, that a step may gain before it is repeated, and
     /// beyond which the run stops.
     constexpr double largest_gain = 0.05, hopeless_gain = 1;
-    /// And a step longer than a leaf, as long as half of it gains a third at most: what is gained at the same rate comes of the mesh.
+    /// And a step longer than two leaves; then half of it as long as that has a third at most: what is gained at the same rate comes of the mesh.
     constexpr double gain_of_long = 1e-3, worth_halving_again = 0.3;
     /// Times that a step is halved for that.
     constexpr unsigned int most_halvings = 4;
@@ -129,13 +129,15 @@ namespace treacle
                  drift < worth_halving * past_drift)
           ++info.repetitions.volume;
         else if ((info.excess > largest_gain ||
-                  (info.excess > gain_of_long && way > 1 && info.excess < worth_halving_again * past_excess)) &&
+                  (info.excess > gain_of_long && way > 2 && info.excess < worth_halving_again * past_excess)) &&
                  info.repetitions.energy < most_halvings)
-          ++info.repetitions.energy;
+          {
+            ++info.repetitions.energy;
+            past_excess = info.excess;
+          }
         else
           break;
-        past_drift  = drift;
-        past_excess = info.excess;
+        past_drift = drift;
         liquid = Liquid<dim>::of(old, scene, liquid_domain);
         volume = old_volume;
         // what was held may have begun to fall: what it did before tells nothing of how

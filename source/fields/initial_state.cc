@@ -115,7 +115,8 @@ namespace treacle
     }
 
     /// The distance @p f to liquid at x as if it went on beyond a wall @p s (m) from there where it touches that: what it has of the
-    /// liquid's end at the wall is no surface. @p away (length 1) leads into the box, h (m) is the edge of the leaves.
+    /// liquid's end at the wall is no surface. @p away (length 1) leads into the box, h (m) is the edge of the leaves. Alike for
+    /// all points before one point of the wall.
     template <int dim>
     double
     beyond_wall(const Distance<dim>  &f,
@@ -124,32 +125,38 @@ namespace treacle
                 const Tensor<1, dim> &away,
                 const double          h)
     {
-      const double value = f(x);
-      const auto   at    = [&](const double way) { return f(x + way * away); };
-      const auto   is_to_wall = [&](const double way, const double phi) {
+      const double value      = f(x);
+      const auto   at         = [&](const double from_wall) { return f(x + (from_wall - s) * away); };
+      const auto   is_to_wall = [&](const double from_wall, const double phi) {
         constexpr double small = 0.05; // leaves
-        return std::abs(phi + s + way) < touching * h && at(way + small * h) - phi < -0.9 * small * h;
+        return std::abs(phi + from_wall) < touching * h && at(from_wall + small * h) - phi < -0.9 * small * h;
       };
-      if (s > before_walls * h || !is_to_wall(0, value))
+      if (s > before_walls * h || !is_to_wall(s, value))
         return value;
       // the free surface goes on straight
-      for (const double way : {0.5 * h, h, 2 * h})
+      for (const double way : {0.5 * h, h, 2 * h, 4 * h})
         {
           const double near = at(way), far = at(2 * way);
           if (!is_to_wall(way, near) && !is_to_wall(2 * way, far))
-            return std::min(value, 2 * near - far);
+            return std::min(value, near + (1 - s / way) * (near - far));
         }
-      return std::min(value, at(before_walls * h - s));
+      return std::min(value, at(before_walls * h));
     }
 
-    /// The same for all sides of the box.
+    /// The distance to liquids that go on beyond all sides of the box, and to emitters, which end there.
     template <int dim>
     Distance<dim>
     beyond_sides(const Scene<dim> &scene, const double h)
     {
-      Distance<dim> f = [&scene](const Point<dim> &x) { return scene.liquid_distance(x); };
+      Distance<dim> f = [&scene](const Point<dim> &x) {
+        double distance = std::numeric_limits<double>::max();
+        for (unsigned int k = 0; k < scene.n_liquids(); ++k)
+          distance = std::min(distance, scene.liquid_distance(k, x));
+        return distance;
+      };
       for (unsigned int d = 0; d < dim; ++d)
-        f = [f, d, h, lower = scene.lower_corner()[d], upper = scene.upper_corner()[d]](const Point<dim> &x) {
+        f = [f, d, h, lower = scene.lower_corner()[d], upper = scene.upper_corner()[d]](Point<dim> x) {
+          x[d]              = std::min(std::max(x[d], lower), upper);
           const bool is_low = x[d] - lower < upper - x[d];
           return beyond_wall<dim>(f,
                                   x,
@@ -157,7 +164,7 @@ namespace treacle
                                   (is_low ? 1. : -1.) * Point<dim>::unit_vector(d),
                                   h);
         };
-      return f;
+      return [f, &scene](const Point<dim> &x) { return std::min(f(x), scene.emitter_distance(x, 0)); };
     }
 
     /// The same for solids at t = 0; in them the distance goes on as it is before their wall.

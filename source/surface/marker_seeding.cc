@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/fields/initial_state.h>
 #include <treacle/fields/moved_points.h>
 #include <treacle/mesh/surface_size.h>
 #include <treacle/surface/marker_seeding.h>
@@ -223,13 +224,14 @@ namespace treacle
       void
       project_to_bodies(std::vector<Marker<dim>> &seeds) const
       {
-        const auto samples = surface.level_set.samples(positions(seeds));
+        const Distance<dim> bodies  = initial_distance(scene, mesh.is_lattice(), mesh.finest_size());
+        const auto          samples = surface.level_set.samples(positions(seeds));
         for (unsigned int k = 0; k < seeds.size(); ++k)
           if (samples[k].smoothness <= 0.9)
             {
               const double         h        = size_at(seeds[k].position);
-              const Tensor<1, dim> gradient = gradient_of_bodies(seeds[k].position, 1e-3 * h);
-              const Tensor<1, dim> way = scene.liquid_distance(seeds[k].position) / gradient.norm_square() * gradient;
+              const Tensor<1, dim> gradient = gradient_of(bodies, seeds[k].position, 1e-3 * h);
+              const Tensor<1, dim> way      = bodies(seeds[k].position) / gradient.norm_square() * gradient;
               if (!(way.norm() < 0.5 * h))
                 continue;
               seeds[k] = {seeds[k].position - way, gradient / gradient.norm()};
@@ -237,8 +239,8 @@ namespace treacle
         clamp(seeds);
       }
 
-      Tensor<1, dim>
-      gradient_of_bodies(const Point<dim> &x, const double step) const
+      static Tensor<1, dim>
+      gradient_of(const Distance<dim> &distance, const Point<dim> &x, const double step)
       {
         Tensor<1, dim> gradient;
         for (unsigned int d = 0; d < dim; ++d)
@@ -246,7 +248,7 @@ namespace treacle
             {
               Point<dim> aside = x;
               aside[d] += side;
-              gradient[d] += scene.liquid_distance(aside) / (2 * side);
+              gradient[d] += distance(aside) / (2 * side);
             }
         return gradient;
       }

@@ -93,6 +93,51 @@ namespace
           << std::endl;
   }
 
+  /// Liquid that fills a gap of three leaves between the floor and a plate that presses it, given up to the floor or far beyond: the largest
+  /// difference of its force in the first steps, and of the volume.
+  void
+  press_film(const MPI_Comm &comm)
+  {
+    const auto run = [&](const std::string &y) {
+      return run_scene<2>(comm,
+                          "set End time = 0.04\nset Frame interval = 0.04\nset Maximum time step = 0.01\n"
+                          "subsection Domain\nset Upper corner = 2, 1\nend\n"
+                          "subsection Mesh\nset Surface level = 5\nset Interior level = 5\nend\n"
+                          "subsection Material\nset Viscosity = 10\nend\n"
+                          "subsection Gravity\nset Acceleration = 0; 0\nend\n"
+                          "subsection Liquid 1\nset Shape = box\nset Lower corner = 0.7, " +
+                            y +
+                            "\nset Upper corner = 1.3, 0.09375\nend\n"
+                            "subsection Solid 1\nset Shape = box\nset Lower corner = 0.1, 0.09375\nset Upper corner = 1.9, 0.3\n"
+                            "set Velocity = 0; -0.1\nend\n",
+                          1);
+    };
+    const auto up_to = run("0"), beyond = run("-1");
+    double     most = 0;
+    for (unsigned int k = 1; k < std::min(up_to.size(), beyond.size()); ++k)
+      most = std::max(most,
+                      std::abs(up_to[k].at("Solid 1 force y (N)") / beyond[k].at("Solid 1 force y (N)") - 1));
+    out() << "2D: film under a plate, force off by " << beyond_noise(1e-3, most) << ", volume by "
+          << beyond_noise(1e-4, up_to.back().at("Liquid volume (m^2)") / beyond.back().at("Liquid volume (m^2)") - 1) << std::endl;
+  }
+
+  /// Air below a block, a third of a leaf and more, is none of the wall's: its volume says whether it is there.
+  void
+  hover(const MPI_Comm &comm)
+  {
+    for (const double leaves : {0.3, 1.3})
+      {
+        std::ostringstream text;
+        text << "set End time = 0.001\nset Frame interval = 0.001\nsubsection Mesh\nset Surface level = 5\nend\n"
+             << "subsection Liquid 1\nset Shape = box\nset Lower corner = -1, " << leaves / 32
+             << "\nset Upper corner = 2, 0.31\nend\n";
+        out() << "2D: block " << leaves << " leaves above the floor, volume off by "
+              << beyond_noise(1e-6,
+                              run_scene<2>(comm, text.str(), 0).front().at("Liquid volume (m^2)") / (0.31 - leaves / 32) - 1)
+              << std::endl;
+      }
+  }
+
   /// A plate of speed V that presses A of liquid, 2D, h high: a force of mu V (A / h^2)^3 by lubrication, less at the front.
   void
   press(const MPI_Comm &comm)
@@ -130,6 +175,8 @@ start(const int, char **)
     rest_in_box<2>(comm);
     rest_in_box<3>(comm);
     fall_in_corner(comm);
+    press_film(comm);
+    hover(comm);
     rest_in_bowl<2>(comm);
     rest_in_bowl<3>(comm);
     press(comm);

@@ -26,7 +26,7 @@ namespace treacle
   template <int dim>
   using Distance = std::function<double(const Point<dim> &)>;
 
-  /// The distance to the liquids of a @p scene, which must outlive it, at t = 0. They go on beyond walls that they touch, those of the
+  /// The distance to the liquids and emitters of a @p scene, which must outlive it, at t = 0. Liquids go on beyond walls that they touch, those of the
   /// box (if it @p has_box, not an imported mesh) and of solids. @p h (m) is the edge of the leaves. Throws where a solid's is not known.
   template <int dim>
   Distance<dim>
