@@ -100,20 +100,6 @@ namespace treacle
     /// In leaves: what is given as close to a wall as this touches it; how far from walls that is looked at.
     constexpr double touching = 0.1, into_solids = 3, before_walls = 4;
 
-    /// Of the distance from the scene's solids at t = 0, by differences over +-d (m); a formula's need not have length 1.
-    template <int dim>
-    Tensor<1, dim>
-    solid_gradient(const Scene<dim> &scene, const Point<dim> &x, const double d)
-    {
-      Tensor<1, dim> result;
-      for (unsigned int a = 0; a < dim; ++a)
-        {
-          const Tensor<1, dim> along = d * Point<dim>::unit_vector(a);
-          result[a] = (scene.solid_distance(x + along, 0) - scene.solid_distance(x - along, 0)) / (2 * d);
-        }
-      return result;
-    }
-
     /// The distance @p f to liquid at x as if it went on beyond a wall @p s (m) from there where it touches that: what it has of the
     /// liquid's end at the wall is no surface. @p away (length 1) leads into the box, h (m) is the edge of the leaves. Alike for
     /// all points before one point of the wall.
@@ -179,8 +165,9 @@ namespace treacle
       const double s = scene.solid_distance(x, 0);
       if (s > before_walls * h)
         return phi;
-      const Tensor<1, dim> gradient = solid_gradient(scene, x, 0.01 * h);
-      const double         slope    = gradient.norm();
+      const Tensor<1, dim> gradient =
+        gradient_of<dim>([&](const Point<dim> &p) { return scene.solid_distance(p, 0); }, x, 0.01 * h);
+      const double slope = gradient.norm();
       if (!(slope > 0))
         return phi;
       const Tensor<1, dim> away   = gradient / slope;

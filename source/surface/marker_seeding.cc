@@ -230,27 +230,13 @@ namespace treacle
           if (samples[k].smoothness <= 0.9)
             {
               const double         h        = size_at(seeds[k].position);
-              const Tensor<1, dim> gradient = gradient_of(bodies, seeds[k].position, 1e-3 * h);
+              const Tensor<1, dim> gradient = gradient_of<dim>(bodies, seeds[k].position, 1e-3 * h);
               const Tensor<1, dim> way      = bodies(seeds[k].position) / gradient.norm_square() * gradient;
               if (!(way.norm() < 0.5 * h))
                 continue;
               seeds[k] = {seeds[k].position - way, gradient / gradient.norm()};
             }
         clamp(seeds);
-      }
-
-      static Tensor<1, dim>
-      gradient_of(const Distance<dim> &distance, const Point<dim> &x, const double step)
-      {
-        Tensor<1, dim> gradient;
-        for (unsigned int d = 0; d < dim; ++d)
-          for (const double side : {-step, step})
-            {
-              Point<dim> aside = x;
-              aside[d] += side;
-              gradient[d] += distance(aside) / (2 * side);
-            }
-        return gradient;
       }
 
       void

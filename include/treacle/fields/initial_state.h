@@ -5,8 +5,7 @@
 #define treacle_fields_initial_state_h
 
 #include <treacle/fields/liquid_domain.h>
-
-#include <functional>
+#include <treacle/geometry/distance.h>
 
 namespace treacle
 {
@@ -21,10 +20,6 @@ namespace treacle
   template <int dim>
   void
   check_walls(const Mesh<dim> &mesh, const Scene<dim> &scene, const std::string &file);
-
-  /// Of a point (m), negative in a body.
-  template <int dim>
-  using Distance = std::function<double(const Point<dim> &)>;
 
   /// The distance to the liquids and emitters of a @p scene, which must outlive it, at t = 0. Liquids go on beyond walls that they touch, those of the
   /// box (if it @p has_box, not an imported mesh) and of solids. @p h (m) is the edge of the leaves. Throws where a solid's is not known.
