@@ -28,7 +28,7 @@ namespace treacle
     /// beyond which the run stops.
     constexpr double largest_gain = 0.05, hopeless_gain = 1;
     /// And a step longer than two leaves; then half of it as long as that has a third at most: what is gained at the same rate comes of the mesh.
-    constexpr double gain_of_long = 1e-3, worth_halving_again = 0.3;
+    constexpr double two_leaves = 2, gain_of_long = 1e-3, worth_halving_again = 0.3;
     /// Times that a step is halved for that.
     constexpr unsigned int most_halvings = 4;
 
@@ -129,7 +129,7 @@ namespace treacle
                  drift < worth_halving * past_drift)
           ++info.repetitions.volume;
         else if ((info.excess > largest_gain ||
-                  (info.excess > gain_of_long && way > 2 && info.excess < worth_halving_again * past_excess)) &&
+                  (info.excess > gain_of_long && way > two_leaves && info.excess < worth_halving_again * past_excess)) &&
                  info.repetitions.energy < most_halvings)
           {
             ++info.repetitions.energy;

@@ -158,9 +158,9 @@ namespace treacle
     double
     beyond_solids(const Scene<dim> &scene, const Distance<dim> &f, const Point<dim> &x, const double h)
     {
-      constexpr double away_from = 20; // leaves; a formula's distance may be too long
-      const double     phi = f(x);
-      if (phi < -(before_walls + touching) * h || phi > away_from * h)
+      constexpr double farthest = 20; // leaves; a formula's distance may be too long
+      const double     phi      = f(x);
+      if (phi < -(before_walls + touching) * h || phi > farthest * h)
         return phi;
       const double s = scene.solid_distance(x, 0);
       if (s > before_walls * h)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/exchange.h>
 #include <treacle/fields/initial_state.h>
 #include <treacle/fields/moved_points.h>
 #include <treacle/mesh/surface_size.h>
@@ -226,17 +227,24 @@ namespace treacle
       {
         const Distance<dim> bodies  = initial_distance(scene, mesh.is_lattice(), mesh.finest_size());
         const auto          samples = surface.level_set.samples(positions(seeds));
-        for (unsigned int k = 0; k < seeds.size(); ++k)
-          if (samples[k].smoothness <= 0.9)
-            {
-              const double         h        = size_at(seeds[k].position);
-              const Tensor<1, dim> gradient = gradient_of<dim>(bodies, seeds[k].position, 1e-3 * h);
-              const Tensor<1, dim> way      = bodies(seeds[k].position) / gradient.norm_square() * gradient;
-              if (!(way.norm() < 0.5 * h))
-                continue;
-              seeds[k] = {seeds[k].position - way, gradient / gradient.norm()};
-            }
+        std::string         error; // a solid's distance may not be known
+        keep_error(error, [&] {
+          for (unsigned int k = 0; k < seeds.size(); ++k)
+            if (samples[k].smoothness <= 0.9)
+              project_to(bodies, seeds[k]);
+        });
+        throw_first(mesh.communicator(), error);
         clamp(seeds);
+      }
+
+      void
+      project_to(const Distance<dim> &bodies, Marker<dim> &seed) const
+      {
+        const double         h        = size_at(seed.position);
+        const Tensor<1, dim> gradient = gradient_of<dim>(bodies, seed.position, 1e-3 * h);
+        const Tensor<1, dim> way      = bodies(seed.position) / gradient.norm_square() * gradient;
+        if (way.norm() < 0.5 * h)
+          seed = {seed.position - way, gradient / gradient.norm()};
       }
 
       void

@@ -22,6 +22,13 @@ namespace
     return 100 * most;
   }
 
+  template <int dim>
+  double
+  liquid_volume(const Row &row)
+  {
+    return row.at("Liquid volume (m^" + std::to_string(dim) + ")");
+  }
+
   double
   beyond_noise(const double noise, const double value)
   {
@@ -41,11 +48,10 @@ namespace
                                        std::string(dim == 2 ? "0, 0\nset Upper corner = 1, 0.31\nend\n" :
                                                               "0, 0, 0\nset Upper corner = 1, 1, 0.31\nend\n"),
                                      0);
-    const std::string volume = dim == 2 ? "Liquid volume (m^2)" : "Liquid volume (m^3)";
-    double            most   = 0;
+    double most = 0;
     for (const Row &row : rows)
       most = std::max(most, row.at("Maximum speed (m/s)"));
-    out() << dim << "D: in a box, volume off by " << beyond_noise(1e-6, rows.front().at(volume) / 0.31 - 1) << ", in a step by "
+    out() << dim << "D: in a box, volume off by " << beyond_noise(1e-6, liquid_volume<dim>(rows.front()) / 0.31 - 1) << ", in a step by "
           << beyond_noise(1e-6, most_in_a_step(rows)) << " %, speed " << beyond_noise(1e-6, most) << std::endl;
   }
 
@@ -86,8 +92,7 @@ namespace
                      1);
     const double exact = dim == 2 ? 0.1225 * std::acos(0.1 / 0.35) - 0.1 * std::sqrt(0.1125) :
                                     numbers::PI * 0.0625 * 0.8 / 3;
-    const std::string volume = dim == 2 ? "Liquid volume (m^2)" : "Liquid volume (m^3)";
-    out() << std::setprecision(2) << dim << "D: in a bowl, volume off by " << 100 * (rows.front().at(volume) / exact - 1)
+    out() << std::setprecision(2) << dim << "D: in a bowl, volume off by " << 100 * (liquid_volume<dim>(rows.front()) / exact - 1)
           << " %, in a step by " << std::setprecision(1) << most_in_a_step(rows) << std::setprecision(2) << " %, speed "
           << rows.back().at("Maximum speed (m/s)")
           << std::endl;
@@ -118,7 +123,7 @@ namespace
       most = std::max(most,
                       std::abs(up_to[k].at("Solid 1 force y (N)") / beyond[k].at("Solid 1 force y (N)") - 1));
     out() << "2D: film under a plate, force off by " << beyond_noise(1e-3, most) << ", volume by "
-          << beyond_noise(1e-4, up_to.back().at("Liquid volume (m^2)") / beyond.back().at("Liquid volume (m^2)") - 1) << std::endl;
+          << beyond_noise(1e-4, liquid_volume<2>(up_to.back()) / liquid_volume<2>(beyond.back()) - 1) << std::endl;
   }
 
   /// Air below a block, a third of a leaf and more, is none of the wall's: its volume says whether it is there.
@@ -133,7 +138,7 @@ namespace
              << "\nset Upper corner = 2, 0.31\nend\n";
         out() << "2D: block " << leaves << " leaves above the floor, volume off by "
               << beyond_noise(1e-6,
-                              run_scene<2>(comm, text.str(), 0).front().at("Liquid volume (m^2)") / (0.31 - leaves / 32) - 1)
+                              liquid_volume<2>(run_scene<2>(comm, text.str(), 0).front()) / (0.31 - leaves / 32) - 1)
               << std::endl;
       }
   }
