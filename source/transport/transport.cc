@@ -84,7 +84,7 @@ namespace treacle
                        liquid.domain->total_volume();
     if (tracking.keeps_volume())
       account_for<dim>(info, won, wanted, scene, moved, *next);
-    info.drift   = (won + info.missing) / wanted;
+    info.drift   = wanted > 0 ? (won + info.missing) / wanted : 0;
     auto surface = tracking.settle(*next, *data, wanted - info.missing);
     settle_material(*next, *data);
     liquid = {std::move(data), std::move(next), std::move(surface), nullptr};
