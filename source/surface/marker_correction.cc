@@ -42,12 +42,13 @@ namespace treacle
         return old;
       // of liquid between two sheets; negative: of air. The sum is the same on either
       // side of both, so it tells a film from a gap. Sheets that come closer than
-      // markers are exact may have crossed: to trust them would let films grow
+      // markers are exact may have crossed: to trust them would let films grow. But they
+      // become thinner: a thread that falls from a ceiling would pour for ever
       const double thickness = -(first.distance + second.distance);
+      const double inside    = std::max(first.distance, second.distance);
       if (thickness < thinnest_film * h && thickness > -thinnest_gap * h)
-        return thickness > 0 && first.distance > 0 ? first.distance : old;
-      return thickness > 0 ? std::max(first.distance, second.distance) :
-                             std::min(first.distance, second.distance);
+        return thickness <= 0 ? old : first.distance > 0 ? first.distance : std::max(old, inside);
+      return thickness > 0 ? inside : std::min(first.distance, second.distance);
     }
 
     /// phi at a node from the markers around it; those on the far side of a thin part
