@@ -34,8 +34,8 @@ namespace treacle
              (at_a - at_b) * (mesh.node_position[b] - mesh.node_position[a]) > 0;
     }
 
-    /// Are the liquid nodes around an owned node of the air in several pieces? A cell
-    /// joins those that do not face each other.
+    /// Are the liquid nodes around an owned node of the air in several pieces that face each other? A cell
+    /// joins those that do not.
     template <int dim>
     bool
     is_in_gap(const Mesh<dim>       &mesh,
@@ -71,9 +71,12 @@ namespace treacle
                     join(piece_of(nodes[j]), piece_of(nodes[i]));
               }
         }
-      return std::any_of(pieces.begin(), pieces.end(), [&](const auto &other) {
-        return other.second != pieces.front().second;
-      });
+      // the lattice shows a thread thinner than a leaf as drops in a row: they do not face each other
+      for (const auto &[a, of_a] : pieces)
+        for (const auto &[b, of_b] : pieces)
+          if (of_a < of_b && face_each_other(mesh, gradient, a, b))
+            return true;
+      return false;
     }
 
     template <int dim>

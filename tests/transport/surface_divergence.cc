@@ -4,7 +4,8 @@
 // What flows through the surface of a disc or ball that turns, moves, and swells beside
 // its surface alone, and through that of a layer that rises from a wall: hardly any once
 // the divergence beside the surface is taken out. A rigid motion stays as it is, what the
-// wall prescribes too, and two halves go on to close a gap thinner than a leaf.
+// wall prescribes too, and two halves go on to close a gap thinner than a leaf. A thread thinner than a
+// leaf, which the lattice shows as drops in a row, becomes thinner as it is stretched.
 
 #include <treacle/fields/gradients.h>
 #include <treacle/transport/surface_divergence.h>
@@ -162,6 +163,27 @@ namespace tests::transport_surface_divergence
             << " slower" << std::endl;
     }
 
+    /// Half a leaf thick, along y, stretched with a velocity that is continued from it.
+    template <int dim>
+    void
+    check_thread(const MPI_Comm &comm, const unsigned int level)
+    {
+      const std::string size = std::to_string(level);
+      const Body<dim>   body(comm,
+                           "subsection Mesh\nset Surface level = " + size + "\nset Interior level = " + size +
+                             "\nset Air level = " + size + "\nend\nsubsection Liquid 1\nset Shape = expression\nset Expression = max(" +
+                             (dim == 2 ? "abs(x - 0.5)" : "sqrt((x - 0.5)^2 + (z - 0.5)^2)") + " - 0.25 / 2^" + size + ", abs(y - 0.5) - 0.3)\nend\n");
+      const auto        stretched = at_nodes<dim>(*body.state.mesh, [&](const LocalIndex node) {
+        Tensor<1, dim> v;
+        v[1] = body.state.mesh->node_position[node][1];
+        return v;
+      });
+      NodeVector<dim>   v         = combined(1, stretched, 0, stretched);
+      remove_divergence(body.state, body.domain, v);
+      out() << dim << "D, a thread: flux " << digits(flux(body, stretched)) << ", then "
+            << bounded(flux(body, v) / flux(body, stretched), 0.1) << " of it" << std::endl;
+    }
+
     /// On a wall that holds the liquid.
     template <int dim>
     void
@@ -201,6 +223,8 @@ namespace tests::transport_surface_divergence
         check<3>(comm, 4);
         check_gap<2>(comm, 4);
         check_gap<3>(comm, 4);
+        check_thread<2>(comm, 4);
+        check_thread<3>(comm, 4);
         check_wall<2>(comm, 5);
         check_wall<3>(comm, 4);
       });
