@@ -134,12 +134,7 @@ namespace treacle
     Distance<dim>
     beyond_sides(const Scene<dim> &scene, const double h)
     {
-      Distance<dim> f = [&scene](const Point<dim> &x) {
-        double distance = std::numeric_limits<double>::max();
-        for (unsigned int k = 0; k < scene.n_liquids(); ++k)
-          distance = std::min(distance, scene.liquid_distance(k, x));
-        return distance;
-      };
+      Distance<dim> f = [&scene](const Point<dim> &x) { return scene.distance_to_liquids(x); };
       for (unsigned int d = 0; d < dim; ++d)
         f = [f, d, h, lower = scene.lower_corner()[d], upper = scene.upper_corner()[d]](Point<dim> x) {
           x[d]              = std::min(std::max(x[d], lower), upper);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace treacle
 {
@@ -216,7 +217,14 @@ namespace treacle
   double
   Scene<dim>::liquid_distance(const Point<dim> &x) const
   {
-    double distance = this->emitter_distance(x, 0.);
+    return std::min(distance_to_liquids(x), this->emitter_distance(x, 0.));
+  }
+
+  template <int dim>
+  double
+  Scene<dim>::distance_to_liquids(const Point<dim> &x) const
+  {
+    double distance = std::numeric_limits<double>::max();
     for (const Liquid &liquid : liquids)
       distance = std::min(distance, liquid.shape.signed_distance(x));
     return distance;

@@ -293,13 +293,8 @@ namespace treacle
       return to_gone < reach && !kept.is_any_within(x, to_gone);
     };
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      {
-        const Point<dim> &x = mesh.node_position[node];
-        // what phi was is the distance from the nearer, nearly
-        const double within = std::min(reach, std::max(3 * leaf, 1.2 * std::abs(state.phi.local_element(node))));
-        if (double &value = phi.local_element(node); value < 0 && gone.is_any_within(x, within) && was_nearer(x))
-          value = -std::min(reach, kept.nearest(x).distance);
-      }
+      if (double &value = phi.local_element(node); value < 0 && was_nearer(mesh.node_position[node]))
+        value = -std::min(reach, kept.nearest(mesh.node_position[node]).distance);
     phi.update_ghost_values();
     state.phi = phi;
     state.phi.update_ghost_values();

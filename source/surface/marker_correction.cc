@@ -45,10 +45,10 @@ namespace treacle
       // markers are exact may have crossed: to trust them would let films grow. But they
       // become thinner: a thread that falls from a ceiling would pour for ever
       const double thickness = -(first.distance + second.distance);
-      const double inside    = std::max(first.distance, second.distance);
-      if (thickness < thinnest_film * h && thickness > -thinnest_gap * h)
-        return thickness <= 0 ? old : first.distance > 0 ? first.distance : std::max(old, inside);
-      return thickness > 0 ? inside : std::min(first.distance, second.distance);
+      if (thickness <= 0)
+        return thickness > -thinnest_gap * h ? old : std::min(first.distance, second.distance);
+      const double of_film = std::max(first.distance, second.distance);
+      return thickness < thinnest_film * h && first.distance <= 0 ? std::max(old, of_film) : of_film;
     }
 
     /// phi at a node from the markers around it; those on the far side of a thin part

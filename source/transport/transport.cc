@@ -33,7 +33,7 @@ namespace treacle
                 const MovedSurface<dim>       &surface,
                 const State<dim>              &state)
     {
-      if (-won < least_lost * wanted)
+      if (-won <= least_lost * wanted) // neither where there is no liquid
         return;
       const auto in_liquid = lost_in_liquid(scene, surface, state);
       info.lost.insert(info.lost.end(), in_liquid.begin(), in_liquid.end());

@@ -43,6 +43,13 @@ namespace tests::transport_surface_divergence
                                    v);
     }
 
+    std::string
+    uniform_mesh(const unsigned int level)
+    {
+      const std::string l = std::to_string(level);
+      return "subsection Mesh\nset Surface level = " + l + "\nset Interior level = " + l + "\nset Air level = " + l + "\nend\n";
+    }
+
     /// Turned and moved (m/s).
     template <int dim>
     Tensor<1, dim>
@@ -136,10 +143,7 @@ namespace tests::transport_surface_divergence
     check_gap(const MPI_Comm &comm, const unsigned int level)
     {
       Body<dim>        body(comm,
-                     "subsection Mesh\nset Surface level = " + std::to_string(level) +
-                       "\nset Interior level = " + std::to_string(level) +
-                       "\nset Air level = " + std::to_string(level) +
-                       "\nend\nsubsection Liquid 1\nset Shape = half space\nend\n");
+                     uniform_mesh(level) + "subsection Liquid 1\nset Shape = half space\nend\n");
       const Mesh<dim> &mesh = *body.state.mesh;
       body.state.phi.zero_out_ghost_values();
       for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
@@ -168,17 +172,16 @@ namespace tests::transport_surface_divergence
     void
     check_thread(const MPI_Comm &comm, const unsigned int level)
     {
-      const std::string size = std::to_string(level);
-      const Body<dim>   body(comm,
-                           "subsection Mesh\nset Surface level = " + size + "\nset Interior level = " + size +
-                             "\nset Air level = " + size + "\nend\nsubsection Liquid 1\nset Shape = expression\nset Expression = max(" +
-                             (dim == 2 ? "abs(x - 0.5)" : "sqrt((x - 0.5)^2 + (z - 0.5)^2)") + " - 0.25 / 2^" + size + ", abs(y - 0.5) - 0.3)\nend\n");
-      const auto        stretched = at_nodes<dim>(*body.state.mesh, [&](const LocalIndex node) {
+      const Body<dim> body(comm,
+                           uniform_mesh(level) + "subsection Liquid 1\nset Shape = expression\nset Expression = max(" +
+                             (dim == 2 ? "abs(x - 0.5)" : "sqrt((x - 0.5)^2 + (z - 0.5)^2)") + " - 0.25 / 2^" +
+                             std::to_string(level) + ", abs(y - 0.5) - 0.3)\nend\n");
+      const auto      stretched = at_nodes<dim>(*body.state.mesh, [&](const LocalIndex node) {
         Tensor<1, dim> v;
         v[1] = body.state.mesh->node_position[node][1];
         return v;
       });
-      NodeVector<dim>   v         = combined(1, stretched, 0, stretched);
+      NodeVector<dim> v         = combined(1, stretched, 0, stretched);
       remove_divergence(body.state, body.domain, v);
       out() << dim << "D, a thread: flux " << digits(flux(body, stretched)) << ", then "
             << bounded(flux(body, v) / flux(body, stretched), 0.1) << " of it" << std::endl;

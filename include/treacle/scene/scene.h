@@ -94,6 +94,10 @@ namespace treacle
     double
     liquid_distance(const Point<dim> &x) const;
 
+    /// The same to the liquids alone.
+    double
+    distance_to_liquids(const Point<dim> &x) const;
+
     /// Velocity at t = 0: of the emitter around x, or of the nearest liquid.
     Tensor<1, dim>
     initial_velocity(const Point<dim> &x) const;
