@@ -62,7 +62,7 @@ namespace treacle
     class Filling
     {
     public:
-      /// Full when the step of size @p dt began were the emitters that worked @p earlier; @p time is in it, h the finest leaf.
+      /// Full a time of @p dt before were the emitters that worked @p earlier; h is the finest leaf.
       Filling(const Scene<dim> &scene, const double h, const double time, const double earlier, const double dt)
         : scene(scene)
         , h(h)
@@ -222,24 +222,32 @@ namespace treacle
   double
   emit(State<dim> &state, const MeshData<dim> &data, const double dt)
   {
-    // steps end where emitters start and stop. Full when this one began were those that worked
-    // just before it, and at t = 0 those that start there
+    // steps end where emitters start and stop
     const Scene<dim> &scene = data.scene;
-    const double time = state.time - 0.5 * dt, earlier = std::max(0., state.time - 1.001 * dt);
-    if (std::none_of(scene.emitters().begin(), scene.emitters().end(), [&](const auto &emitter) {
-          return emitter.is_at_work(time);
-        }))
-      return 0;
-    const double volume = fill_emitters(
-      state, data, Filling<dim>(scene, data.mesh.finest_size(), time, earlier, dt));
-    if (state.material)
-      set_material(state, scene, time);
-    // the liquid that they bounded has come in from behind
-    const auto is_inside = [&](const Marker<dim> &marker) {
-      return scene.emitter_distance(marker.position, time) < -0.1 * data.mesh.finest_size();
+    const double      h = data.mesh.finest_size(), end = state.time, start = std::max(0., end - dt),
+                 middle    = 0.5 * (start + end);
+    double       volume    = 0;
+    const auto   fill_with = [&](const double time, const double earlier, const double way) {
+      volume += fill_emitters(state, data, Filling<dim>(scene, h, time, earlier, way));
+      if (state.material)
+        set_material(state, scene, time);
+      // the liquid that they bounded has come in from behind
+      const auto is_inside = [&](const Marker<dim> &marker) {
+        return scene.emitter_distance(marker.position, time) < -0.1 * h;
+      };
+      state.markers.erase(std::remove_if(state.markers.begin(), state.markers.end(), is_inside),
+                          state.markers.end());
     };
-    state.markers.erase(std::remove_if(state.markers.begin(), state.markers.end(), is_inside),
-                        state.markers.end());
+    const auto any = [&](const auto &is) {
+      return std::any_of(scene.emitters().begin(), scene.emitters().end(), is);
+    };
+    if (any([&](const Emitter<dim> &emitter) { return emitter.is_at_work(middle); }))
+      fill_with(middle, start, dt);
+    // at once, as at t = 0 those that start there
+    if (any([&](const Emitter<dim> &emitter) {
+          return emitter.is_at_work(end) && !emitter.is_at_work(middle);
+        }))
+      fill_with(end, middle, 0);
     return volume;
   }
 
