@@ -8,6 +8,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
+#include <boost/serialization/map.hpp>
+
 #include <algorithm>
 #include <iostream>
 #include <vector>

@@ -3,8 +3,6 @@
 
 #include <treacle/mesh/octree.h>
 
-#include <deal.II/grid/grid_generator.h>
-
 namespace treacle
 {
   namespace
@@ -20,6 +18,17 @@ namespace treacle
           code |= static_cast<std::uint64_t>((p[d] >> bit) & 1) << (dim * bit + d);
       return code;
     }
+
+    /// Along each axis.
+    template <int dim>
+    LatticePoint<dim>
+    root_cubes(const OctreeParameters<dim> &prm)
+    {
+      const std::vector<unsigned int> n = prm.root_counts();
+      LatticePoint<dim>               result;
+      std::copy(n.begin(), n.end(), result.begin());
+      return result;
+    }
   } // namespace
 
   template <int dim>
@@ -30,112 +39,58 @@ namespace treacle
                       const double      size_factor)
     : comm(comm)
     , prm(parameters)
-    , triangulation(comm)
+    , order(root_cubes(prm))
     , factor(size_factor)
   {
-    const std::vector<unsigned int> n = prm.root_counts();
-    unit                              = 0.5 * prm.finest_size();
+    unit = 0.5 * prm.finest_size();
     prm.check();
     for (unsigned int d = 0; d < dim; ++d)
-      box[d] = static_cast<int>(n[d]) * root_size();
-    GridGenerator::subdivided_hyper_rectangle(triangulation,
-                                              n,
-                                              prm.lower_corner,
-                                              prm.upper_corner);
-    refine(criterion);
-    collect_leaves(partition(weight));
+      box[d] = order.n[d] * root_size();
+    Forest<dim> forest(comm, order, root_size());
+    refine(forest, criterion);
+    std::vector<Leaf<dim>> leaves;
+    for (const auto &owned : forest.owned_leaves())
+      leaves.push_back(owned.leaf);
+    forest.partition(weight(leaves));
+    collect_leaves(forest);
     find_ranges();
   }
 
   template <int dim>
-  Leaf<dim>
-  Octree<dim>::leaf_of(const CellIterator &cell) const
-  {
-    const unsigned int level = cell->level();
-    return {finest_cube(cell->vertex(0)), root_size() >> level, level};
-  }
-
-  template <int dim>
   void
-  Octree<dim>::refine(const Criterion &criterion)
+  Octree<dim>::refine(Forest<dim> &forest, const Criterion &criterion) const
   {
-    for (unsigned int level = 0;
-         level < std::min(prm.surface_level, triangulation.n_global_levels());
-         ++level)
+    bool is_finer = true;
+    for (unsigned int level = 0; level < prm.surface_level && is_finer; ++level)
       {
-        std::vector<Leaf<dim>>    leaves;
-        std::vector<CellIterator> cells;
-        for (const auto &cell : triangulation.active_cell_iterators_on_level(level))
-          if (cell->is_locally_owned())
+        std::vector<Leaf<dim>>    leaves; // of the level
+        std::vector<unsigned int> place;
+        const auto                owned = forest.owned_leaves();
+        for (unsigned int i = 0; i < owned.size(); ++i)
+          if (owned[i].leaf.level == level)
             {
-              cells.push_back(cell);
-              leaves.push_back(leaf_of(cell));
+              leaves.push_back(owned[i].leaf);
+              place.push_back(i);
             }
-        const std::vector<bool> is_to_refine = criterion(leaves);
-        for (unsigned int i = 0; i < cells.size(); ++i)
-          if (is_to_refine[i])
-            cells[i]->set_refine_flag();
-        triangulation.execute_coarsening_and_refinement();
+        const std::vector<bool> is_near = criterion(leaves);
+        std::vector<bool>       is_to_refine(owned.size(), false);
+        for (unsigned int i = 0; i < place.size(); ++i)
+          is_to_refine[place[i]] = is_near[i];
+        is_finer = forest.refine(is_to_refine);
       }
-  }
-
-  template <int dim>
-  std::unordered_map<VertexKey, unsigned int>
-  Octree<dim>::partition(const Weight &weight)
-  {
-    std::vector<Leaf<dim>> leaves;
-    for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned())
-        leaves.push_back(leaf_of(cell));
-    const std::vector<unsigned int>             values = weight(leaves);
-    std::unordered_map<VertexKey, unsigned int> weight_at;
-    for (unsigned int i = 0; i < leaves.size(); ++i)
-      weight_at[pack<dim>(leaves[i].origin)] = values[i];
-    const auto weight_of = [&](const CellIterator &cell, const auto) {
-      return weight_at.at(pack<dim>(leaf_of(cell).origin));
-    };
-
-    // weights move with their leaves
-    const auto         connection = triangulation.signals.weight.connect(weight_of);
-    const unsigned int handle     = triangulation.register_data_attach(
-      [&](const CellIterator &cell, const auto status) {
-        return Utilities::pack(weight_of(cell, status), false);
-      },
-      false);
-    triangulation.repartition();
-    connection.disconnect();
-    std::unordered_map<VertexKey, unsigned int> now;
-    triangulation.notify_ready_to_unpack(
-      handle, [&](const CellIterator &cell, const auto, const auto &data) {
-        now[pack<dim>(leaf_of(cell).origin)] =
-          Utilities::unpack<unsigned int>(data.begin(), data.end(), false);
-      });
-    return now;
   }
 
   template <int dim>
   void
-  Octree<dim>::collect_leaves(const std::unordered_map<VertexKey, unsigned int> &weight_at)
+  Octree<dim>::collect_leaves(const Forest<dim> &forest)
   {
-    using Entry = std::pair<Position, Leaf<dim>>;
-    std::vector<Entry> owned, ghosts;
-    for (const auto &cell : triangulation.active_cell_iterators())
-      if (!cell->is_artificial())
-        {
-          const Leaf<dim> leaf = leaf_of(cell);
-          (cell->is_locally_owned() ? owned : ghosts)
-            .push_back({position_on_curve(leaf.origin), leaf});
-        }
-    for (auto *list : {&owned, &ghosts})
+    for (const auto &owned : forest.owned_leaves())
       {
-        std::sort(list->begin(), list->end(), [](const Entry &a, const Entry &b) {
-          return a.first < b.first;
-        });
-        for (const Entry &entry : *list)
-          all_leaves.push_back(entry.second);
+        all_leaves.push_back(owned.leaf);
+        weights.push_back(owned.weight);
       }
-    for (unsigned int i = 0; i < owned.size(); ++i)
-      weights.push_back(weight_at.at(pack<dim>(all_leaves[i].origin)));
+    const std::vector<Leaf<dim>> ghosts = forest.ghost_leaves();
+    all_leaves.insert(all_leaves.end(), ghosts.begin(), ghosts.end());
     by_origin.reserve(2 * all_leaves.size());
     for (unsigned int i = 0; i < all_leaves.size(); ++i)
       by_origin[pack<dim>(all_leaves[i].origin)] = i;
@@ -145,15 +100,13 @@ namespace treacle
   typename Octree<dim>::Position
   Octree<dim>::position_on_curve(const LatticePoint<dim> &cube) const
   {
-    // root cells are numbered along x first
-    LatticePoint<dim> local;
-    unsigned int      root = 0;
-    for (int d = dim - 1; d >= 0; --d)
+    LatticePoint<dim> root, local;
+    for (unsigned int d = 0; d < dim; ++d)
       {
-        root     = root * (box[d] / root_size()) + cube[d] / root_size();
+        root[d]  = cube[d] / root_size();
         local[d] = cube[d] % root_size();
       }
-    return {triangulation.get_coarse_cell_to_p4est_tree_permutation()[root], morton<dim>(local)};
+    return {order.tree(root), morton<dim>(local)};
   }
 
   template <int dim>

@@ -4,10 +4,8 @@
 #ifndef treacle_mesh_octree_h
 #define treacle_mesh_octree_h
 
-#include <treacle/mesh/leaf.h>
+#include <treacle/mesh/forest.h>
 #include <treacle/mesh/octree_parameters.h>
-
-#include <deal.II/distributed/tria.h>
 
 #include <functional>
 #include <memory>
@@ -132,8 +130,6 @@ namespace treacle
     }
 
   private:
-    using CellIterator = typename Triangulation<dim>::cell_iterator;
-
     static std::vector<unsigned int>
     alike(const std::vector<Leaf<dim>> &leaves)
     {
@@ -143,29 +139,22 @@ namespace treacle
     /// A tree of p4est's forest, and the place along the Morton curve in it.
     using Position = std::pair<unsigned int, std::uint64_t>;
 
-    Leaf<dim>
-    leaf_of(const CellIterator &cell) const;
-
     /// Of the finest cube with this lowest corner: it orders all leaves.
     Position
     position_on_curve(const LatticePoint<dim> &cube) const;
 
     void
-    refine(const Criterion &criterion);
-
-    /// Returns the weights of this rank's leaves then, by their lowest corners.
-    std::unordered_map<VertexKey, unsigned int>
-    partition(const Weight &weight);
+    refine(Forest<dim> &forest, const Criterion &criterion) const;
 
     void
-    collect_leaves(const std::unordered_map<VertexKey, unsigned int> &weight_at);
+    collect_leaves(const Forest<dim> &forest);
 
     void
     find_ranges();
 
-    MPI_Comm                                  comm;
-    Parameters                                prm;
-    parallel::distributed::Triangulation<dim> triangulation;
+    MPI_Comm       comm;
+    Parameters     prm;
+    TreeOrder<dim> order;
 
     LatticePoint<dim>                           box;
     double                                      unit;

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/mesh/forest.h>
+
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_tools.h>
+
+#include <algorithm>
+
+namespace treacle
+{
+  template <int dim>
+  TreeOrder<dim>::TreeOrder(const LatticePoint<dim> &n)
+    : n(n)
+  {
+    LatticePoint<dim> last;
+    for (unsigned int d = 0; d < dim; ++d)
+      last[d] = n[d] - 1;
+    const unsigned int     n_trees = index(last) + 1;
+    DynamicSparsityPattern touching(n_trees, n_trees);
+    const auto             root_at = [&](unsigned int i) {
+      LatticePoint<dim> root;
+      for (unsigned int d = 0; d < dim; i /= n[d++])
+        root[d] = i % n[d];
+      return root;
+    };
+    const unsigned int n_around = dim == 2 ? 9 : 27;
+    for (unsigned int i = 0; i < n_trees; ++i)
+      for (unsigned int k = 0, offset = 0; k < n_around; offset = ++k)
+        {
+          LatticePoint<dim> other     = root_at(i);
+          bool              is_inside = true;
+          for (unsigned int d = 0; d < dim; ++d, offset /= 3)
+            {
+              other[d] += static_cast<int>(offset % 3) - 1;
+              is_inside = is_inside && other[d] >= 0 && other[d] < n[d];
+            }
+          if (is_inside)
+            touching.add(i, index(other));
+        }
+    std::vector<DynamicSparsityPattern::size_type> places(n_trees);
+    SparsityTools::reorder_hierarchical(touching, places);
+    trees.assign(places.begin(), places.end());
+    roots.resize(n_trees);
+    for (unsigned int i = 0; i < n_trees; ++i)
+      roots[trees[i]] = root_at(i);
+  }
+
+  template <int dim>
+  unsigned int
+  TreeOrder<dim>::index(const LatticePoint<dim> &root) const
+  {
+    unsigned int i = 0;
+    for (int d = dim - 1; d >= 0; --d)
+      i = i * n[d] + root[d];
+    return i;
+  }
+
+  template <int dim>
+  unsigned int
+  TreeOrder<dim>::tree(const LatticePoint<dim> &root) const
+  {
+    return trees[index(root)];
+  }
+
+  template <int dim>
+  Forest<dim>::Forest(const MPI_Comm &comm, const TreeOrder<dim> &order, const int root_size)
+    : order(order)
+    , root_size(root_size)
+    , connectivity(connect(order))
+    , forest(Functions::new_forest(comm, connectivity.get(), 0, 0, 1, sizeof(int), nullptr, nullptr),
+             [](typename Types::forest *f) { Functions::destroy(f); })
+  {
+    set_numbers([](unsigned int) { return 1; });
+  }
+
+  template <int dim>
+  std::unique_ptr<typename Forest<dim>::Connectivity, void (*)(typename Forest<dim>::Connectivity *)>
+  Forest<dim>::connect(const TreeOrder<dim> &order)
+  {
+    constexpr unsigned int n_corners = 1 << dim, n_faces = 2 * dim;
+    LatticePoint<dim>      n_along;
+    unsigned int           n_vertices = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+      n_vertices *= n_along[d] = order.n[d] + 1;
+    Connectivity *c;
+    if constexpr (dim == 2)
+      c = Functions::connectivity_new(n_vertices, order.n_trees(), 0, 0);
+    else
+      c = Functions::connectivity_new(n_vertices, order.n_trees(), 0, 0, 0, 0);
+    for (unsigned int i = 0; i < n_vertices; ++i)
+      for (unsigned int d = 0, rest = i; d < 3; rest /= d < dim ? n_along[d] : 1, ++d)
+        c->vertices[3 * i + d] = d < dim ? rest % n_along[d] : 0.;
+    for (unsigned int tree = 0; tree < order.n_trees(); ++tree)
+      {
+        for (unsigned int corner = 0; corner < n_corners; ++corner)
+          {
+            unsigned int vertex = 0;
+            for (int d = dim - 1; d >= 0; --d)
+              vertex = vertex * n_along[d] + order.root(tree)[d] + ((corner >> d) & 1);
+            c->tree_to_vertex[n_corners * tree + corner] = vertex;
+          }
+        for (unsigned int face = 0; face < n_faces; ++face)
+          {
+            c->tree_to_tree[n_faces * tree + face] = tree;
+            c->tree_to_face[n_faces * tree + face] = face;
+          }
+      }
+    if constexpr (dim == 2)
+      p4est_connectivity_complete(c);
+    else
+      p8est_connectivity_complete(c);
+    return {c, [](Connectivity *old) { Functions::connectivity_destroy(old); }};
+  }
+
+  template <int dim>
+  Leaf<dim>
+  Forest<dim>::leaf_of(const unsigned int tree, const Quadrant &quadrant) const
+  {
+    const auto place = [&](const unsigned int d, const typename Types::quadrant_coord x) {
+      const int unit = (1 << Functions::max_level) / root_size;
+      return order.root(tree)[d] * root_size + x / unit;
+    };
+    const unsigned int level = quadrant.level;
+    if constexpr (dim == 2)
+      return {{{place(0, quadrant.x), place(1, quadrant.y)}}, root_size >> level, level};
+    else
+      return {{{place(0, quadrant.x), place(1, quadrant.y), place(2, quadrant.z)}}, root_size >> level, level};
+  }
+
+  template <int dim>
+  void
+  Forest<dim>::for_each_quadrant(const std::function<void(unsigned int, Quadrant &)> &action) const
+  {
+    for (auto tree = forest->first_local_tree; tree <= forest->last_local_tree; ++tree)
+      {
+        sc_array_t &quadrants = static_cast<typename Types::tree *>(sc_array_index(forest->trees, tree))->quadrants;
+        for (std::size_t i = 0; i < quadrants.elem_count; ++i)
+          action(tree, *static_cast<Quadrant *>(sc_array_index(&quadrants, i)));
+      }
+  }
+
+  template <int dim>
+  std::vector<typename Forest<dim>::WeightedLeaf>
+  Forest<dim>::owned_leaves() const
+  {
+    std::vector<WeightedLeaf> leaves;
+    leaves.reserve(forest->local_num_quadrants);
+    for_each_quadrant([&](const unsigned int tree, Quadrant &quadrant) {
+      leaves.push_back({leaf_of(tree, quadrant), static_cast<unsigned int>(number(quadrant))});
+    });
+    return leaves;
+  }
+
+  template <int dim>
+  std::vector<Leaf<dim>>
+  Forest<dim>::ghost_leaves() const
+  {
+    const std::unique_ptr<typename Types::ghost, void (*)(typename Types::ghost *)> layer(
+      Functions::ghost_new(forest.get(), over_corners),
+      [](typename Types::ghost *g) { Functions::ghost_destroy(g); });
+    std::vector<Leaf<dim>> leaves;
+    for (std::size_t i = 0; i < layer->ghosts.elem_count; ++i)
+      {
+        const auto &quadrant = *static_cast<Quadrant *>(sc_array_index(&layer->ghosts, i));
+        leaves.push_back(leaf_of(quadrant.p.piggy3.which_tree, quadrant));
+      }
+    return leaves;
+  }
+
+  template <int dim>
+  void
+  Forest<dim>::set_numbers(const std::function<int(unsigned int)> &of_leaf)
+  {
+    unsigned int i = 0;
+    for_each_quadrant([&](unsigned int, Quadrant &quadrant) { number(quadrant) = of_leaf(i++); });
+  }
+
+  template <int dim>
+  bool
+  Forest<dim>::refine(const std::vector<bool> &is_to_refine)
+  {
+    const auto clear = [](typename Types::forest *, typename Types::topidx, Quadrant *quadrant) {
+      number(*quadrant) = 0;
+    };
+    const auto before = forest->global_num_quadrants;
+    set_numbers([&](const unsigned int i) { return is_to_refine[i] ? 1 : 0; });
+    Functions::refine(forest.get(), 0, number_of, clear);
+    if (forest->global_num_quadrants == before)
+      return false;
+    Functions::balance(forest.get(), over_corners, clear);
+    Functions::partition(forest.get(), 1, nullptr);
+    return true;
+  }
+
+  template <int dim>
+  void
+  Forest<dim>::partition(const std::vector<unsigned int> &weight)
+  {
+    set_numbers([&](const unsigned int i) { return static_cast<int>(weight[i]); });
+    Functions::partition(forest.get(), 1, number_of);
+  }
+
+  template class TreeOrder<2>;
+  template class TreeOrder<3>;
+  template class Forest<2>;
+  template class Forest<3>;
+} // namespace treacle
