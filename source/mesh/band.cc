@@ -5,6 +5,7 @@
 #include <treacle/mesh/band.h>
 
 #include <map>
+#include <optional>
 #include <unordered_set>
 
 namespace treacle
@@ -33,21 +34,35 @@ namespace treacle
       return signs;
     }
 
-    /// From the cube of a point to those that it asks for, in cubes.
+    /// Cubes side by side along the last axis: the keys of the first and the last one.
+    struct Row
+    {
+      VertexKey first, last;
+    };
+
+    /// From the cube of a point to rows of those that it asks for, in cubes.
     template <int dim>
-    std::vector<LatticePoint<dim>>
+    struct Steps
+    {
+      LatticePoint<dim> first;
+      int               length; ///< along the last axis
+    };
+
+    template <int dim>
+    std::vector<Steps<dim>>
     steps(const BandWidths &widths, const LatticePoint<dim> &outward)
     {
       const int n = std::max(1., std::max(widths.inner, widths.outer));
-      std::vector<LatticePoint<dim>> result;
-      unsigned int                   n_all = 1;
+      std::vector<Steps<dim>> result;
+      unsigned int            n_all = 1;
       for (unsigned int d = 0; d < dim; ++d)
         n_all *= 2 * n + 1;
+      bool goes_on = false;
       for (unsigned int k = 0; k < n_all; ++k)
         {
           LatticePoint<dim> step;
           int               along = 0, square = 0, longest = 0;
-          for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= 2 * n + 1)
+          for (unsigned int d = dim, rest = k; d-- > 0; rest /= 2 * n + 1)
             {
               step[d] = static_cast<int>(rest % (2 * n + 1)) - n;
               along += step[d] * outward[d];
@@ -55,11 +70,61 @@ namespace treacle
               longest = std::max(longest, std::abs(step[d]));
             }
           const double width = along > 0 ? widths.outer : widths.inner;
-          if (longest <= 1 ||
-              (outward != LatticePoint<dim>{} && square <= width * width))
-            result.push_back(step);
+          const bool   is_asked =
+            longest <= 1 || (outward != LatticePoint<dim>{} && square <= width * width);
+          if (is_asked && goes_on && step[dim - 1] > -n)
+            ++result.back().length;
+          else if (is_asked)
+            result.push_back({step, 1});
+          goes_on = is_asked;
         }
       return result;
+    }
+
+    /// Cubes of the edge @p size with these keys, sorted.
+    std::vector<Row>
+    rows_of(const std::vector<VertexKey> &keys, const int size)
+    {
+      std::vector<Row> rows;
+      for (const VertexKey key : keys)
+        if (!rows.empty() && key == rows.back().last + size)
+          rows.back().last = key;
+        else
+          rows.push_back({key, key});
+      return rows;
+    }
+
+    /// The cubes in any of the rows, sorted.
+    std::vector<VertexKey>
+    cubes_in(std::vector<Row> rows, const int size)
+    {
+      std::sort(rows.begin(), rows.end(), [](const Row &a, const Row &b) { return a.first < b.first; });
+      std::vector<VertexKey> cubes;
+      for (const Row &row : rows)
+        for (VertexKey cube = cubes.empty() ? row.first : std::max(row.first, cubes.back() + size); cube <= row.last;
+             cube += size)
+          cubes.push_back(cube);
+      return cubes;
+    }
+
+    /// What cubes of the edge @p size in a row ask for, as far as the box goes to @p extent.
+    template <int dim>
+    std::optional<Row>
+    moved(const Row &row, const Steps<dim> &steps, const int size, const LatticePoint<dim> &extent)
+    {
+      LatticePoint<dim> first = unpack<dim>(row.first), last = unpack<dim>(row.last);
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          first[d] += size * steps.first[d];
+          last[d] += size * steps.first[d];
+        }
+      constexpr unsigned int along = dim - 1;
+      first[along]                 = std::max(first[along], 0);
+      last[along] = std::min(last[along] + size * (steps.length - 1), extent[along] - size);
+      for (unsigned int d = 0; d < dim; ++d)
+        if (first[d] < 0 || last[d] >= extent[d] || first[d] > last[d])
+          return {};
+      return Row{pack<dim>(first), pack<dim>(last)};
     }
 
     template <int dim>
@@ -69,20 +134,6 @@ namespace treacle
       return octree.position(Leaf<dim>{unpack<dim>(cube), size, 0}.centre());
     }
   } // namespace
-
-  template <int dim>
-  std::optional<VertexKey>
-  Band<dim>::cube_at(const VertexKey cube, const LatticePoint<dim> &step, const LatticePoint<dim> &extent) const
-  {
-    LatticePoint<dim> other = unpack<dim>(cube);
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        other[d] += size * step[d];
-        if (other[d] < 0 || other[d] >= extent[d])
-          return {};
-      }
-    return pack<dim>(other);
-  }
 
   template <int dim>
   Band<dim>::Band(const Octree<dim>                             &octree,
@@ -98,28 +149,29 @@ namespace treacle
     for (const BandPoint<dim> &point : points)
       by_direction[direction(point.outward)].push_back(
         pack<dim>(cube_around<dim>(octree.finest_cube(point.position), size)));
+    std::vector<Row> asked;
     for (auto &[outward, asking] : by_direction)
       {
         sort_unique(asking);
         at_points.insert(at_points.end(), asking.begin(), asking.end());
-        for (const LatticePoint<dim> &step : steps<dim>(widths, outward))
-          for (const VertexKey cube : asking)
-            if (const auto other = cube_at(cube, step, octree.extent()))
-              cubes.push_back(*other);
+        const std::vector<Row> rows = rows_of(asking, size);
+        for (const Steps<dim> &of_row : steps<dim>(widths, outward))
+          for (const Row &row : rows)
+            if (const auto other = moved<dim>(row, of_row, size, octree.extent()))
+              asked.push_back(*other);
       }
+    sort_unique(at_points);
+    cubes = cubes_in(std::move(asked), size);
     std::string error;
     for (std::vector<VertexKey> *list : {&cubes, &at_points})
-      {
-        sort_unique(*list);
-        keep_error(error, [&] {
-          list->erase(std::remove_if(list->begin(),
-                                     list->end(),
-                                     [&](const VertexKey cube) {
-                                       return !is_needed(centre_of_cube(octree, cube, size));
-                                     }),
-                      list->end());
-        });
-      }
+      keep_error(error, [&] {
+        list->erase(std::remove_if(list->begin(),
+                                   list->end(),
+                                   [&](const VertexKey cube) {
+                                     return !is_needed(centre_of_cube(octree, cube, size));
+                                   }),
+                    list->end());
+      });
     throw_first(comm, error);
   }
 

@@ -13,9 +13,9 @@ namespace treacle
     morton(const LatticePoint<dim> &p)
     {
       std::uint64_t code = 0;
-      for (unsigned int bit = 0; bit < 21; ++bit)
-        for (unsigned int d = 0; d < dim; ++d)
-          code |= static_cast<std::uint64_t>((p[d] >> bit) & 1) << (dim * bit + d);
+      for (unsigned int d = 0; d < dim; ++d)
+        for (std::uint64_t bits = p[d]; bits != 0; bits &= bits - 1)
+          code |= std::uint64_t(1) << (dim * __builtin_ctzll(bits) + d);
       return code;
     }
 
@@ -25,7 +25,7 @@ namespace treacle
     root_cubes(const OctreeParameters<dim> &prm)
     {
       const std::vector<unsigned int> n = prm.root_counts();
-      LatticePoint<dim>               result;
+      LatticePoint<dim>               result{};
       std::copy(n.begin(), n.end(), result.begin());
       return result;
     }

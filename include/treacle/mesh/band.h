@@ -6,8 +6,6 @@
 
 #include <treacle/mesh/octree.h>
 
-#include <optional>
-
 namespace treacle
 {
   /// A point to lay a band around: of a surface with its unit normal out of the liquid, or
@@ -55,12 +53,6 @@ namespace treacle
     touches(const std::vector<Leaf<dim>> &leaves) const;
 
   private:
-    /// The one that is @p step cubes away, unless it is outside of the box.
-    std::optional<VertexKey>
-    cube_at(const VertexKey          cube,
-            const LatticePoint<dim> &step,
-            const LatticePoint<dim> &extent) const;
-
     /// Those @p list that lie in larger leaves. Collective.
     GlobalIndex
     n_in_larger_leaves(const Octree<dim> &octree, const std::vector<VertexKey> &list) const;
