@@ -8,16 +8,20 @@ namespace treacle
 {
   namespace
   {
+    /// At all nodes of this rank.
     template <int dim>
-    void
-    check_finite(const Mesh<dim> &mesh, const std::string &name, const Distance<dim> &distance)
+    std::vector<double>
+    finite_distances(const Mesh<dim> &mesh, const std::string &name, const Distance<dim> &distance)
     {
-      const auto &x      = mesh.node_position;
-      const bool  finite = std::all_of(x.begin(), x.end(), [&](const Point<dim> &p) {
-        return std::isfinite(distance(p));
+      std::vector<double> values;
+      for (const Point<dim> &x : mesh.node_position)
+        values.push_back(distance(x));
+      const bool finite = std::all_of(values.begin(), values.end(), [](const double value) {
+        return std::isfinite(value);
       });
       require(Utilities::MPI::min(finite ? 1 : 0, mesh.communicator()) == 1,
               name + ": the Expression is not finite somewhere in the box: mend it.");
+      return values;
     }
 
     /// Is some of a body in the box, and some of that outside solids?
@@ -29,16 +33,16 @@ namespace treacle
                const Distance<dim> &distance,
                const double         time)
     {
-      check_finite(mesh, name, distance);
-      const MPI_Comm &comm   = mesh.communicator();
-      bool            in_box = false, outside_solids = false;
-      std::string     error;
+      const std::vector<double> values = finite_distances(mesh, name, distance);
+      const MPI_Comm           &comm   = mesh.communicator();
+      bool                      in_box = false, outside_solids = false;
+      std::string               error;
       for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-        if (const Point<dim> &x = mesh.node_position[node]; distance(x) < 0)
+        if (values[node] < 0)
           {
             in_box = true;
             keep_error(error, [&] {
-              outside_solids = outside_solids || scene.solid_distance(x, time) > 0;
+              outside_solids = outside_solids || scene.solid_distance(mesh.node_position[node], time) > 0;
             });
           }
       throw_first(comm, error);
@@ -59,7 +63,7 @@ namespace treacle
   check_bodies(const Mesh<dim> &mesh, const Scene<dim> &scene)
   {
     if (scene.has_solids())
-      check_finite<dim>(mesh, "Solids", [&](const Point<dim> &x) {
+      finite_distances<dim>(mesh, "Solids", [&](const Point<dim> &x) {
         return scene.solid_distance(x, 0);
       });
     for (unsigned int k = 0; k < scene.n_liquids(); ++k)
@@ -192,13 +196,18 @@ namespace treacle
 
   template <int dim>
   void
-  set_initial_level_set(State<dim> &state, const Scene<dim> &scene)
+  set_initial_level_set(State<dim> &state, const Scene<dim> &scene, std::unordered_map<VertexKey, double> &known)
   {
     const Mesh<dim>    &mesh     = *state.mesh;
     const Distance<dim> distance = initial_distance(scene, mesh.is_lattice(), mesh.finest_size());
     std::string         error;
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      keep_error(error, [&] { state.phi.local_element(node) = distance(mesh.node_position[node]); });
+      keep_error(error, [&] {
+        const auto [entry, is_new] = known.try_emplace(mesh.node_key[node]);
+        if (is_new)
+          entry->second = distance(mesh.node_position[node]);
+        state.phi.local_element(node) = entry->second;
+      });
     throw_first(mesh.communicator(), error);
     state.phi.update_ghost_values();
   }
@@ -223,7 +232,9 @@ namespace treacle
   template void check_bodies(const Mesh<dim> &, const Scene<dim> &);                        \
   template void check_walls(const Mesh<dim> &, const Scene<dim> &, const std::string &);    \
   template Distance<dim> initial_distance(const Scene<dim> &, const bool, const double);    \
-  template void set_initial_level_set(State<dim> &, const Scene<dim> &);                    \
+  template void set_initial_level_set(State<dim> &,                                         \
+                                      const Scene<dim> &,                                   \
+                                      std::unordered_map<VertexKey, double> &);             \
   template void set_initial_velocity(State<dim> &, const LiquidDomain<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

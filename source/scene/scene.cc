@@ -231,17 +231,25 @@ namespace treacle
   }
 
   template <int dim>
+  const typename Scene<dim>::Liquid &
+  Scene<dim>::nearest_liquid(const Point<dim> &x) const
+  {
+    return liquids.size() == 1 ?
+             liquids.front() :
+             *nearest(liquids, [&](const Liquid &l) { return l.shape.signed_distance(x); }).first;
+  }
+
+  template <int dim>
   Tensor<1, dim>
   Scene<dim>::initial_velocity(const Point<dim> &x) const
   {
     const auto [emitter, distance] = this->nearest_emitter(x, 0.);
     if (distance < 0 || liquids.empty())
       return emitter ? emitter->velocity(x, 0.) : Tensor<1, dim>();
-    const Liquid *liquid =
-      nearest(liquids, [&](const Liquid &l) { return l.shape.signed_distance(x); }).first;
-    const Tensor<1, dim> value = liquid->velocity(x, 0.);
+    const Liquid        &liquid = nearest_liquid(x);
+    const Tensor<1, dim> value  = liquid.velocity(x, 0.);
     if (!std::isfinite(value.norm_square()))
-      value_error(numbered("Liquid", liquid - liquids.data()) + "/Velocity",
+      value_error(numbered("Liquid", &liquid - liquids.data()) + "/Velocity",
                   value.norm(),
                   "finite",
                   x,
@@ -256,8 +264,7 @@ namespace treacle
     const auto [emitter, distance] = this->nearest_emitter(x, 0.);
     if (distance < 0 || liquids.empty())
       return emitter ? emitter->material : material;
-    return nearest(liquids, [&](const Liquid &l) { return l.shape.signed_distance(x); })
-      .first->material;
+    return nearest_liquid(x).material;
   }
 
   template <int dim>

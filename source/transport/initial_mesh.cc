@@ -142,14 +142,15 @@ namespace treacle
                   const OctreeGrowth<dim>           &growth,
                   const Scene<dim>                  &scene)
     {
-      const OctreeParameters<dim> prm = octree->parameters();
+      const OctreeParameters<dim>           prm = octree->parameters();
+      std::unordered_map<VertexKey, double> distances;
       for (unsigned int level = prm.coarsest_at_surface();; ++level)
         {
           const auto mesh = std::make_shared<const Mesh<dim>>(octree);
           if (level == prm.surface_level + 2)
             return mesh;
           State<dim> state(mesh);
-          set_initial_level_set(state, scene);
+          set_initial_level_set(state, scene, distances);
           redistance(state, TimeStep<dim>::reach_of_distance(0, *mesh));
           const SurfaceGeometry<dim> surface(mesh, state.phi);
           const Vector               size = sizing.at_surface(state, surface);

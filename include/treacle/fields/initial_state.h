@@ -7,6 +7,8 @@
 #include <treacle/fields/liquid_domain.h>
 #include <treacle/geometry/distance.h>
 
+#include <unordered_map>
+
 namespace treacle
 {
   /// Throws a UserError on all ranks where a liquid or emitter is outside of the mesh or in
@@ -27,10 +29,19 @@ namespace treacle
   Distance<dim>
   initial_distance(const Scene<dim> &scene, const bool has_box, const double h);
 
-  /// That distance at the nodes; ghosts are up to date. Throws a UserError on all ranks where it is not known. Collective.
+  /// That distance at the nodes; ghosts are up to date. Asked for only where it is not @p known, by the keys of nodes, from other meshes of
+  /// the same box and finest leaf; then it is. Throws a UserError on all ranks where it cannot be known. Collective.
   template <int dim>
   void
-  set_initial_level_set(State<dim> &state, const Scene<dim> &scene);
+  set_initial_level_set(State<dim> &state, const Scene<dim> &scene, std::unordered_map<VertexKey, double> &known);
+
+  template <int dim>
+  void
+  set_initial_level_set(State<dim> &state, const Scene<dim> &scene)
+  {
+    std::unordered_map<VertexKey, double> none;
+    set_initial_level_set(state, scene, none);
+  }
 
   /// The velocity of the scene's liquids at t = 0 on liquid faces. Throws a UserError on all
   /// ranks where it is not finite. Collective.

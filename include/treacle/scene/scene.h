@@ -139,6 +139,10 @@ namespace treacle
     void
     check_transport(const Parameters &parameters) const;
 
+    /// Of one at least.
+    const Liquid &
+    nearest_liquid(const Point<dim> &x) const;
+
     Point<dim>            lower, upper;
     WallConditions<dim>   walls;
     unsigned int          wall_level;
