@@ -108,27 +108,42 @@ namespace treacle
       return true;
     }
 
-    /// Leaves that distances say the surface is in, to a level that shows it; from about as many on as
+    /// Leaves that distances say the surface is in, to a level that shows it; where these would be more than
     /// Maximum cells allows only those that hide it: bands around what is found go on.
     template <int dim>
     typename Octree<dim>::Criterion
-    around_distances(const MPI_Comm &comm, const OctreeParameters<dim> &prm, const Scene<dim> &scene)
+    around_distances(const MPI_Comm            &comm,
+                     const OctreeParameters<dim> &prm,
+                     const Scene<dim>            &scene,
+                     const OctreeGrowth<dim>     &growth)
     {
       return [&, n_leaves = 0.](const std::vector<Leaf<dim>> &leaves) mutable {
-        const bool is_full = prm.maximum_cells > 0 && prm.n_cells(n_leaves) > prm.maximum_cells;
-        std::vector<bool> near;
-        double            n_near = 0;
-        for (const Leaf<dim> &leaf : leaves)
+        constexpr double          n_more = (1u << dim) - 1;
+        const std::vector<double> phi    = growth.phi_at_centres(leaves);
+        std::vector<bool>         near;
+        double                    n_near = 0;
+        for (unsigned int i = 0; i < leaves.size(); ++i)
           {
-            const Point<dim> x         = centre<dim>(prm, leaf);
-            const double     in_middle = scene.liquid_distance(x), edge = prm.size_of(leaf.level);
+            const Leaf<dim> &leaf = leaves[i];
             near.push_back(
-              is_within(prm, leaf, in_middle, prm.finest_size()) &&
-              (leaf.level < prm.coarsest_at_surface() || may_hide_something(scene, x, in_middle, edge)) &&
-              (!is_full || hides_surface(scene, x, in_middle, edge)));
+              is_within(prm, leaf, phi[i], prm.finest_size()) &&
+              (leaf.level < prm.coarsest_at_surface() ||
+               may_hide_something(scene, centre<dim>(prm, leaf), phi[i], prm.size_of(leaf.level))));
             n_near += near.back();
           }
-        n_leaves += ((1u << dim) - 1) * Utilities::MPI::sum(n_near, comm);
+        const double n_with = n_leaves + n_more * Utilities::MPI::sum(n_near, comm);
+        if (prm.maximum_cells > 0 && prm.n_cells(n_with) > prm.maximum_cells)
+          {
+            n_near = 0;
+            for (unsigned int i = 0; i < leaves.size(); ++i)
+              {
+                near[i] = near[i] && hides_surface(scene, centre<dim>(prm, leaves[i]), phi[i], prm.size_of(leaves[i].level));
+                n_near += near[i];
+              }
+            n_leaves += n_more * Utilities::MPI::sum(n_near, comm);
+          }
+        else
+          n_leaves = n_with;
         return near;
       };
     }
@@ -144,10 +159,13 @@ namespace treacle
     {
       const OctreeParameters<dim>           prm = octree->parameters();
       std::unordered_map<VertexKey, double> distances;
+      // each mesh shows where the next one is to be finer by a level; with a bound the last ones would only differ in
+      // what little is left over
+      const unsigned int last = prm.surface_level + (prm.maximum_cells > 0 ? 0 : 2);
       for (unsigned int level = prm.coarsest_at_surface();; ++level)
         {
           const auto mesh = std::make_shared<const Mesh<dim>>(octree);
-          if (level == prm.surface_level + 2)
+          if (level == last)
             return mesh;
           State<dim> state(mesh);
           set_initial_level_set(state, scene, distances);
@@ -188,7 +206,7 @@ namespace treacle
     });
     // first where the distance is small, then around what was found: an
     // expression need not be a distance
-    const auto octree = growth.grow(around_distances(comm, prm, scene), growth.largest_factor());
+    const auto octree = growth.grow(around_distances(comm, prm, scene, growth), growth.largest_factor());
     if (!sizing.is_uniform_at_surface())
       return mesh_by_sizes(octree, sizing, growth, scene);
     const BandPoints<dim> points =

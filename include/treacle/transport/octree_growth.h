@@ -60,11 +60,11 @@ namespace treacle
     bool
     is_any_too_coarse(const std::vector<Leaf<dim>> &leaves) const;
 
-  private:
-    /// Each rank asks for a leaf once, however many octrees have it.
+    /// The level set. Each rank asks for a leaf once, however many octrees have it.
     std::vector<double>
     phi_at_centres(const std::vector<Leaf<dim>> &leaves) const;
 
+  private:
     /// Is more asked for at its centre? While leaves grow, what is asked for half an edge further,
     /// and in the middle of its children, counts too: the last leaves of a level are made when
     /// it was balanced, and are not asked.
