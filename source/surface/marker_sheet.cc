@@ -17,7 +17,7 @@ namespace treacle
     if (normal.norm() == 0) // all at the very end of the reach
       return;
     normal /= normal.norm();
-    // the mean distance from the planes of markers: with the mean of two normals it is
+    // the mean distance from the planes of markers: with the mean of two normals, whose length is that along either, it is
     // exact for a sphere
     double         sum = 0;
     Tensor<1, dim> aside;
@@ -25,7 +25,7 @@ namespace treacle
       {
         const Tensor<1, dim> r = x - m->marker.position;
         const double         w = weight(r.norm_square(), h);
-        sum += w;
+        sum += w * 0.5 * (1 + m->marker.normal * normal);
         distance += w * 0.5 * (r * (m->marker.normal + normal));
         aside += w * (r - (r * normal) * normal);
       }

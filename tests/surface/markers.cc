@@ -55,6 +55,17 @@ find_case(const std::string &name)
             1,
             2.5,
             turn};
+  if (name.substr(0, 6) == "thread") // thread1.8: 1.8 leaves of level 5 across, in 3D
+    {
+      const std::string along = "min(max(((x-0.25)*2 + (y-0.3)*1 + (z-0.35)*2)/3, 0), 0.3)";
+      return {"sqrt((x-0.25-2/3*" + along + ")^2 + (y-0.3-1/3*" + along + ")^2 + (z-0.35-2/3*" + along + ")^2) - " +
+                std::to_string(std::stod(name.substr(6)) / 64),
+              1, 0.4, [](const Point<dim> &, const double t) {
+                Tensor<1, dim> v;
+                v[0] = v[1] = t < 0.5 ? 0.4 : -0.4;
+                return v;
+              }};
+    }
   if (name == "deformation") // of a sphere, in 3D; LeVeque (1996), section 9.5, and Enright et al. (2002), section 4.2
     return {"sqrt((x-0.35)^2+(y-0.35)^2+(z-0.35)^2)-0.15", 3, 2, [=](const Point<dim> &x, const double t) {
               Tensor<1, dim> v;
@@ -224,7 +235,8 @@ start(const int argc, char **argv)
       check_thin<2>(comm, "sheet1", 6, 0.03);
       check_thin<2>(comm, "vortex", 5, 0.15);
       check_thin<2>(comm, "drop", 4, 0.03);
-      check_thin<3>(comm, "drop", 4, 0.1);
+      check_thin<3>(comm, "drop", 4, 0.01);
+      check_thin<3>(comm, "thread1.8", 5, 0.05);
     });
 }
 
