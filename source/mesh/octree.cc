@@ -19,11 +19,12 @@ namespace treacle
       return code;
     }
 
-    /// Along each axis.
+    /// Along each axis. Throws a UserError where there are none, or too many.
     template <int dim>
     LatticePoint<dim>
     root_cubes(const OctreeParameters<dim> &prm)
     {
+      prm.check();
       const std::vector<unsigned int> n = prm.root_counts();
       LatticePoint<dim>               result{};
       std::copy(n.begin(), n.end(), result.begin());
@@ -43,7 +44,6 @@ namespace treacle
     , factor(size_factor)
   {
     unit = 0.5 * prm.finest_size();
-    prm.check();
     for (unsigned int d = 0; d < dim; ++d)
       box[d] = order.n[d] * root_size();
     Forest<dim> forest(comm, order, root_size());
