@@ -14,8 +14,10 @@ namespace treacle
     finite_distances(const Mesh<dim> &mesh, const std::string &name, const Distance<dim> &distance)
     {
       std::vector<double> values;
+      std::string         error; // of a motion
       for (const Point<dim> &x : mesh.node_position)
-        values.push_back(distance(x));
+        keep_error(error, [&] { values.push_back(distance(x)); });
+      throw_first(mesh.communicator(), error);
       const bool finite = std::all_of(values.begin(), values.end(), [](const double value) {
         return std::isfinite(value);
       });

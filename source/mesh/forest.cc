@@ -3,67 +3,8 @@
 
 #include <treacle/mesh/forest.h>
 
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/sparsity_tools.h>
-
-#include <algorithm>
-
 namespace treacle
 {
-  template <int dim>
-  TreeOrder<dim>::TreeOrder(const LatticePoint<dim> &n)
-    : n(n)
-  {
-    LatticePoint<dim> last;
-    for (unsigned int d = 0; d < dim; ++d)
-      last[d] = n[d] - 1;
-    const unsigned int     n_trees = index(last) + 1;
-    DynamicSparsityPattern touching(n_trees, n_trees);
-    const auto             root_at = [&](unsigned int i) {
-      LatticePoint<dim> root;
-      for (unsigned int d = 0; d < dim; i /= n[d++])
-        root[d] = i % n[d];
-      return root;
-    };
-    const unsigned int n_around = dim == 2 ? 9 : 27;
-    for (unsigned int i = 0; i < n_trees; ++i)
-      for (unsigned int k = 0, offset = 0; k < n_around; offset = ++k)
-        {
-          LatticePoint<dim> other     = root_at(i);
-          bool              is_inside = true;
-          for (unsigned int d = 0; d < dim; ++d, offset /= 3)
-            {
-              other[d] += static_cast<int>(offset % 3) - 1;
-              is_inside = is_inside && other[d] >= 0 && other[d] < n[d];
-            }
-          if (is_inside)
-            touching.add(i, index(other));
-        }
-    std::vector<DynamicSparsityPattern::size_type> places(n_trees);
-    SparsityTools::reorder_hierarchical(touching, places);
-    trees.assign(places.begin(), places.end());
-    roots.resize(n_trees);
-    for (unsigned int i = 0; i < n_trees; ++i)
-      roots[trees[i]] = root_at(i);
-  }
-
-  template <int dim>
-  unsigned int
-  TreeOrder<dim>::index(const LatticePoint<dim> &root) const
-  {
-    unsigned int i = 0;
-    for (int d = dim - 1; d >= 0; --d)
-      i = i * n[d] + root[d];
-    return i;
-  }
-
-  template <int dim>
-  unsigned int
-  TreeOrder<dim>::tree(const LatticePoint<dim> &root) const
-  {
-    return trees[index(root)];
-  }
-
   template <int dim>
   Forest<dim>::Forest(const MPI_Comm &comm, const TreeOrder<dim> &order, const int root_size)
     : order(order)
@@ -71,9 +12,7 @@ namespace treacle
     , connectivity(connect(order))
     , forest(Functions::new_forest(comm, connectivity.get(), 0, 0, 1, sizeof(int), nullptr, nullptr),
              [](typename Types::forest *f) { Functions::destroy(f); })
-  {
-    set_numbers([](unsigned int) { return 1; });
-  }
+  {}
 
   template <int dim>
   std::unique_ptr<typename Forest<dim>::Connectivity, void (*)(typename Forest<dim>::Connectivity *)>
@@ -142,15 +81,25 @@ namespace treacle
   }
 
   template <int dim>
-  std::vector<typename Forest<dim>::WeightedLeaf>
+  std::vector<Leaf<dim>>
   Forest<dim>::owned_leaves() const
   {
-    std::vector<WeightedLeaf> leaves;
+    std::vector<Leaf<dim>> leaves;
     leaves.reserve(forest->local_num_quadrants);
-    for_each_quadrant([&](const unsigned int tree, Quadrant &quadrant) {
-      leaves.push_back({leaf_of(tree, quadrant), static_cast<unsigned int>(number(quadrant))});
+    for_each_quadrant([&](const unsigned int tree, const Quadrant &quadrant) {
+      leaves.push_back(leaf_of(tree, quadrant));
     });
     return leaves;
+  }
+
+  template <int dim>
+  std::vector<unsigned int>
+  Forest<dim>::weights() const
+  {
+    std::vector<unsigned int> result;
+    result.reserve(forest->local_num_quadrants);
+    for_each_quadrant([&](unsigned int, Quadrant &quadrant) { result.push_back(number(quadrant)); });
+    return result;
   }
 
   template <int dim>
@@ -202,8 +151,6 @@ namespace treacle
     Functions::partition(forest.get(), 1, number_of);
   }
 
-  template class TreeOrder<2>;
-  template class TreeOrder<3>;
   template class Forest<2>;
   template class Forest<3>;
 } // namespace treacle

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/mesh/forest.h>
 #include <treacle/mesh/octree.h>
 
 namespace treacle
@@ -48,10 +49,7 @@ namespace treacle
       box[d] = order.n[d] * root_size();
     Forest<dim> forest(comm, order, root_size());
     refine(forest, criterion);
-    std::vector<Leaf<dim>> leaves;
-    for (const auto &owned : forest.owned_leaves())
-      leaves.push_back(owned.leaf);
-    forest.partition(weight(leaves));
+    forest.partition(weight(forest.owned_leaves()));
     collect_leaves(forest);
     find_ranges();
   }
@@ -65,11 +63,11 @@ namespace treacle
       {
         std::vector<Leaf<dim>>    leaves; // of the level
         std::vector<unsigned int> place;
-        const auto                owned = forest.owned_leaves();
+        const std::vector<Leaf<dim>> owned = forest.owned_leaves();
         for (unsigned int i = 0; i < owned.size(); ++i)
-          if (owned[i].leaf.level == level)
+          if (owned[i].level == level)
             {
-              leaves.push_back(owned[i].leaf);
+              leaves.push_back(owned[i]);
               place.push_back(i);
             }
         const std::vector<bool> is_near = criterion(leaves);
@@ -84,11 +82,8 @@ namespace treacle
   void
   Octree<dim>::collect_leaves(const Forest<dim> &forest)
   {
-    for (const auto &owned : forest.owned_leaves())
-      {
-        all_leaves.push_back(owned.leaf);
-        weights.push_back(owned.weight);
-      }
+    all_leaves = forest.owned_leaves();
+    weights    = forest.weights();
     const std::vector<Leaf<dim>> ghosts = forest.ghost_leaves();
     all_leaves.insert(all_leaves.end(), ghosts.begin(), ghosts.end());
     by_origin.reserve(2 * all_leaves.size());

@@ -112,7 +112,7 @@ namespace treacle
     /// Maximum cells allows only those that hide it: bands around what is found go on.
     template <int dim>
     typename Octree<dim>::Criterion
-    around_distances(const MPI_Comm            &comm,
+    around_distances(const MPI_Comm              &comm,
                      const OctreeParameters<dim> &prm,
                      const Scene<dim>            &scene,
                      const OctreeGrowth<dim>     &growth)

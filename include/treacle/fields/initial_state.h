@@ -35,6 +35,7 @@ namespace treacle
   void
   set_initial_level_set(State<dim> &state, const Scene<dim> &scene, std::unordered_map<VertexKey, double> &known);
 
+  /// The same, with none known.
   template <int dim>
   void
   set_initial_level_set(State<dim> &state, const Scene<dim> &scene)

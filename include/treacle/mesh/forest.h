@@ -4,7 +4,7 @@
 #ifndef treacle_mesh_forest_h
 #define treacle_mesh_forest_h
 
-#include <treacle/mesh/leaf.h>
+#include <treacle/mesh/tree_order.h>
 
 #include <deal.II/distributed/p4est_wrappers.h>
 
@@ -14,42 +14,6 @@
 
 namespace treacle
 {
-  /// Root cubes of a brick in the order of p4est's trees: neighbours are near one another in it, and
-  /// so on the space filling curve that goes through all trees. (deal.II numbers the coarse cells of its distributed triangulations
-  /// this way.)
-  template <int dim>
-  class TreeOrder
-  {
-  public:
-    /// @p n root cubes along each axis.
-    explicit TreeOrder(const LatticePoint<dim> &n);
-
-    /// Which tree the root cube at @p root is, which counts root cubes along each axis.
-    unsigned int
-    tree(const LatticePoint<dim> &root) const;
-
-    LatticePoint<dim>
-    root(const unsigned int tree) const
-    {
-      return roots[tree];
-    }
-
-    unsigned int
-    n_trees() const
-    {
-      return trees.size();
-    }
-
-    const LatticePoint<dim> n;
-
-  private:
-    unsigned int
-    index(const LatticePoint<dim> &root) const;
-
-    std::vector<unsigned int>      trees;
-    std::vector<LatticePoint<dim>> roots;
-  };
-
   /// p4est's forest of octrees while it grows from root cubes (Burstedde, Wilcox & Ghattas 2011).
   template <int dim>
   class Forest
@@ -58,15 +22,13 @@ namespace treacle
     /// With @p root_size the edge of a root cube in lattice units, a power of two. Collective.
     Forest(const MPI_Comm &comm, const TreeOrder<dim> &order, const int root_size);
 
-    struct WeightedLeaf
-    {
-      Leaf<dim>    leaf;
-      unsigned int weight;
-    };
-
-    /// Of this rank, along the space filling curve, with the weights they were parted by.
-    std::vector<WeightedLeaf>
+    /// Of this rank, along the space filling curve.
+    std::vector<Leaf<dim>>
     owned_leaves() const;
+
+    /// What the last partition weighed them by.
+    std::vector<unsigned int>
+    weights() const;
 
     /// Leaves of other ranks that share a corner with one of this rank, along the curve. Collective.
     std::vector<Leaf<dim>>

@@ -4,8 +4,8 @@
 #ifndef treacle_mesh_octree_h
 #define treacle_mesh_octree_h
 
-#include <treacle/mesh/forest.h>
 #include <treacle/mesh/octree_parameters.h>
+#include <treacle/mesh/tree_order.h>
 
 #include <functional>
 #include <memory>
@@ -14,6 +14,9 @@
 
 namespace treacle
 {
+  template <int dim>
+  class Forest;
+
   /// A balanced (2:1 over faces, edges and corners), partitioned octree on a box.
   template <int dim>
   class Octree
