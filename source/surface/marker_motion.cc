@@ -3,7 +3,6 @@
 
 #include <treacle/fields/gradients.h>
 #include <treacle/fields/moved_points.h>
-#include <treacle/mesh/tracer.h>
 #include <treacle/surface/marker_motion.h>
 
 namespace treacle
@@ -48,7 +47,7 @@ namespace treacle
 
   template <int dim>
   std::vector<Marker<dim>>
-  moved_markers(const State<dim> &state, const NodeVector<dim> &velocity, const double dt)
+  moved_markers(const State<dim> &state, const VelocityInStep<dim> &velocity, const double dt)
   {
     const Mesh<dim> &mesh = *state.mesh;
     if (Utilities::MPI::max<unsigned int>(state.markers.size(), mesh.communicator()) == 0)
@@ -59,7 +58,7 @@ namespace treacle
     std::vector<Point<dim>>       middle(from.size());
     for (unsigned int k = 0; k < from.size(); ++k)
       middle[k] = from[k] + 0.5 * (to[k] - from[k]);
-    const std::vector<double> gradients = velocity_gradients(mesh, velocity, middle, guesses);
+    const std::vector<double> gradients = velocity_gradients(mesh, *velocity.middle, middle, guesses);
     std::vector<Marker<dim>>  moved(from.size());
     for (unsigned int k = 0; k < from.size(); ++k)
       moved[k] = {to[k], turned(state.markers[k].normal, &gradients[k * dim * dim], dt)};
@@ -68,7 +67,7 @@ namespace treacle
 
   template <int dim>
   std::vector<MaterialPoint<dim>>
-  moved_material(const State<dim> &state, const NodeVector<dim> &velocity, const double dt)
+  moved_material(const State<dim> &state, const VelocityInStep<dim> &velocity, const double dt)
   {
     std::vector<MaterialPoint<dim>> moved = state.material->points;
     const auto ends = Tracer<dim>(*state.mesh).trace(positions(moved), velocity, dt);
@@ -78,11 +77,11 @@ namespace treacle
   }
 
   template std::vector<MaterialPoint<2>>
-  moved_material(const State<2> &, const NodeVector<2> &, const double);
+  moved_material(const State<2> &, const VelocityInStep<2> &, const double);
   template std::vector<MaterialPoint<3>>
-  moved_material(const State<3> &, const NodeVector<3> &, const double);
+  moved_material(const State<3> &, const VelocityInStep<3> &, const double);
   template std::vector<Marker<2>>
-  moved_markers(const State<2> &, const NodeVector<2> &, const double);
+  moved_markers(const State<2> &, const VelocityInStep<2> &, const double);
   template std::vector<Marker<3>>
-  moved_markers(const State<3> &, const NodeVector<3> &, const double);
+  moved_markers(const State<3> &, const VelocityInStep<3> &, const double);
 } // namespace treacle

@@ -71,13 +71,12 @@ namespace treacle
     , surface(surface)
     , difference(difference)
     , dt(difference.dt)
-    , velocity(velocity_after(0.5, old, difference))
-    , surface_velocity(
-        treacle::surface_velocity(old,
-                                  domain,
-                                  velocity,
-                                  dt * maximum_speed(old, domain) + 2 * old.mesh->finest_size(),
-                                  keeps_volume ? &surface.level_set.gradients() : nullptr))
+    , velocity([&] {
+      const double reach = dt * maximum_speed(old, domain) + 2 * old.mesh->finest_size();
+      return velocity_in_step<dim>(old, domain, difference, reach, [&](const NodeVector<dim> &v) {
+        return surface_velocity(old, domain, v, reach, keeps_volume ? &surface.level_set.gradients() : nullptr);
+      });
+    }())
   {}
 
   template <int dim>
@@ -100,7 +99,7 @@ namespace treacle
   NodeVector<dim>
   Advection<dim>::velocity_at_end(const Mesh<dim> &mesh) const
   {
-    return at_nodes_of(mesh, velocity_after(1, old, difference));
+    return at_nodes_of(mesh, velocity.carried[2]);
   }
 
   template <int dim>
@@ -108,14 +107,14 @@ namespace treacle
   Advection<dim>::level_set(const std::vector<Point<dim>> &x) const
   {
     Guesses guesses;
-    const auto from = Tracer<dim>(*old.mesh).trace(x, surface_velocity, -dt, guesses);
+    const auto from = Tracer<dim>(*old.mesh).trace(x, velocity.surface, -dt, guesses);
     return surface.level_set.values(from, guesses);
   }
 
   template <int dim>
   typename Advection<dim>::Carried
   Advection<dim>::carried(std::vector<NodeField<dim>> fields,
-                          const NodeVector<dim>      &velocity,
+                          const VelocityInStep<dim>  &velocity,
                           const double                dt,
                           const double                reach) const
   {
@@ -135,7 +134,7 @@ namespace treacle
               corrected.push_back(node);
           }
         result.corrections =
-          back_and_forth_error(*old.mesh, values, velocity, dt, known, corrected);
+          back_and_forth_error<dim>(*old.mesh, values, velocity, dt, known, corrected);
         for (unsigned int k = 0; k < result.fields.size(); ++k)
           result.fields[k].correction = &result.corrections[k];
       }
@@ -184,14 +183,14 @@ namespace treacle
       for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
         guesses.push_back(mesh.node_cells[mesh.node_cell_start[node]]);
     const std::vector<Point<dim>> from =
-      Tracer<dim>(*old.mesh).trace(owned_nodes(mesh), surface_velocity, -dt, guesses);
+      Tracer<dim>(*old.mesh).trace(owned_nodes(mesh), velocity.surface, -dt, guesses);
     const std::vector<double> values = surface.level_set.values(from, guesses);
     std::copy(values.begin(), values.end(), state.phi.begin());
     state.phi.update_ghost_values();
     if (!old.material)
       return;
     const Carried             carry = carried(
-      {{&old.material->density.mean}, {&old.material->viscosity.mean}}, surface_velocity, dt, reach);
+      {{&old.material->density.mean}, {&old.material->viscosity.mean}}, velocity.surface, dt, reach);
     const std::vector<double> material =
       Tracer<dim>(*old.mesh).evaluate(from, carry.fields, guesses);
     state.material.emplace(mesh.nodes);
@@ -210,7 +209,7 @@ namespace treacle
   {
     const NodeVector<dim> &v = *old.before->v;
     return {std::move(now),
-            carried(fields_of(v), velocity, dt + old.before->dt, reach),
+            carried(fields_of(v), velocity.carried[1], dt + old.before->dt, reach),
             combined(0.5, old.v, 0.5, v),
             {old, domain}};
   }
@@ -220,7 +219,7 @@ namespace treacle
   Advection<dim>::paths_to(const std::vector<Point<dim>> &x, const Carried &now, Guesses &&guesses) const
   {
     const Tracer<dim> tracer(*old.mesh);
-    Paths             paths{tracer.trace(x, velocity, -dt, guesses), {}, {}};
+    Paths             paths{tracer.trace(x, velocity.carried, -dt, guesses), {}, {}};
     paths.values = tracer.evaluate(paths.from, now.fields, guesses);
     paths.cells  = std::move(guesses);
     return paths;
@@ -295,7 +294,7 @@ namespace treacle
       for (unsigned int i = 0; i < values.size(); ++i)
         state.u.local_element(begin[i / dim]) += weight * mesh.face_normal[begin[i / dim]][i % dim] * values[i];
     };
-    Carried now   = carried(fields_of(old.v), velocity, dt, reach);
+    Carried now   = carried(fields_of(old.v), velocity.carried, dt, reach);
     Paths   paths = paths_to(x, now, std::move(guesses));
     add(faces.begin(), 1, paths.values);
     if (&mesh == old.mesh.get())

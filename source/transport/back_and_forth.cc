@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/mesh/tracer.h>
 #include <treacle/transport/back_and_forth.h>
 
 namespace treacle
@@ -22,7 +21,7 @@ namespace treacle
     std::vector<double>
     traced(const Mesh<dim>                   &mesh,
            const std::vector<const Vector *> &fields,
-           const NodeVector<dim>             &velocity,
+           const VelocityInStep<dim>         &velocity,
            const double                       dt,
            const std::vector<LocalIndex>     &nodes)
     {
@@ -43,13 +42,13 @@ namespace treacle
   std::vector<Vector>
   back_and_forth_error(const Mesh<dim>                   &mesh,
                        const std::vector<const Vector *> &fields,
-                       const NodeVector<dim>             &velocity,
+                       const VelocityInStep<dim>         &velocity,
                        const double                       dt,
                        const std::vector<LocalIndex>     &known,
                        const std::vector<LocalIndex>     &corrected)
   {
     const unsigned int  n      = fields.size();
-    std::vector<double> values = traced(mesh, fields, velocity, -dt, known);
+    std::vector<double> values = traced<dim>(mesh, fields, velocity, -dt, known);
     std::vector<Vector>         carried(n, mesh.zeros(mesh.nodes));
     std::vector<const Vector *> carried_fields;
     for (unsigned int k = 0; k < n; ++k)
@@ -61,7 +60,7 @@ namespace treacle
         carried_fields.push_back(&carried[k]);
       }
 
-    values = traced(mesh, carried_fields, velocity, dt, corrected);
+    values = traced<dim>(mesh, carried_fields, velocity, dt, corrected);
     std::vector<Vector> error(n, mesh.zeros(mesh.nodes));
     for (unsigned int k = 0; k < n; ++k)
       {
@@ -76,7 +75,7 @@ namespace treacle
 #define INSTANTIATE(dim)                                                       \
   template std::vector<Vector> back_and_forth_error(const Mesh<dim> &,         \
                                                     const std::vector<const Vector *> &, \
-                                                    const NodeVector<dim> &,   \
+                                                    const VelocityInStep<dim> &, \
                                                     const double,              \
                                                     const std::vector<LocalIndex> &, \
                                                     const std::vector<LocalIndex> &);

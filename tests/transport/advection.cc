@@ -76,7 +76,7 @@ error_of_revolution(const MPI_Comm &comm, const unsigned int level, const bool i
     {
       std::vector<treacle::Vector> correction;
       if (is_corrected)
-        correction = back_and_forth_error(mesh, components, rotation, dt, nodes, nodes);
+        correction = back_and_forth_error<dim>(mesh, components, rotation, dt, nodes, nodes);
       std::vector<NodeField<dim>> fields;
       for (unsigned int d = 0; d < dim; ++d)
         fields.push_back(

@@ -6,6 +6,7 @@
 
 #include <treacle/mesh/locator.h>
 
+#include <array>
 #include <optional>
 
 namespace treacle
@@ -39,6 +40,26 @@ namespace treacle
     return fields;
   }
 
+  /// The velocity of nodes at the begin of a step, in its middle and at its end, of which each stays as
+  /// it is. Is not an owner.
+  template <int dim>
+  struct VelocityInStep
+  {
+    const NodeVector<dim> *begin, *middle, *end;
+
+    VelocityInStep(const NodeVector<dim> &steady)
+      : begin(&steady)
+      , middle(&steady)
+      , end(&steady)
+    {}
+
+    VelocityInStep(const std::array<NodeVector<dim>, 3> &v)
+      : begin(&v[0])
+      , middle(&v[1])
+      , end(&v[2])
+    {}
+  };
+
   /// Follows paths and evaluates node fields anywhere in the mesh: what lies on
   /// another rank is asked of that rank. All members are collective, and all
   /// vectors must have up-to-date ghosts.
@@ -65,17 +86,16 @@ namespace treacle
       return evaluate(x, fields, none);
     }
 
-    /// Where the paths through @p x lead in time @p dt (negative: where they come from), with
-    /// Ralston's Runge-Kutta method of order 3. Those that leave the mesh end at its boundary.
-    /// Guesses are for x, then for the ends.
+    /// Where the paths through @p x lead in a step of size @p dt, with Kutta's method of order 3. Negative: where
+    /// those that end in x come from. Paths that leave the mesh end at its boundary. Guesses are for x, then for the ends.
     std::vector<Point<dim>>
     trace(const std::vector<Point<dim>> &x,
-          const NodeVector<dim>         &velocity,
+          const VelocityInStep<dim>     &velocity,
           const double                   dt,
           Guesses                       &guesses) const;
 
     std::vector<Point<dim>>
-    trace(const std::vector<Point<dim>> &x, const NodeVector<dim> &velocity, const double dt) const
+    trace(const std::vector<Point<dim>> &x, const VelocityInStep<dim> &velocity, const double dt) const
     {
       Guesses none;
       return trace(x, velocity, dt, none);
@@ -84,7 +104,7 @@ namespace treacle
     /// The same, but paths may end outside of the mesh.
     std::vector<Point<dim>>
     path_ends(const std::vector<Point<dim>> &x,
-              const NodeVector<dim>         &velocity,
+              const VelocityInStep<dim>     &velocity,
               const double                   dt,
               Guesses                       &guesses) const;
 
@@ -95,15 +115,15 @@ namespace treacle
 
     /// The same of a path. One after the other they stay among the same few cells.
     std::optional<Point<dim>>
-    path_end_here(const Point<dim>      &x,
-                  const NodeVector<dim> &velocity,
-                  const double           dt,
-                  LocalIndex            &guess) const;
+    path_end_here(const Point<dim>          &x,
+                  const VelocityInStep<dim> &velocity,
+                  const double               dt,
+                  LocalIndex                &guess) const;
 
     /// Paths that lead to other ranks or out of the mesh.
     std::vector<Point<dim>>
     path_ends_anywhere(const std::vector<Point<dim>> &x,
-                       const NodeVector<dim>         &velocity,
+                       const VelocityInStep<dim>     &velocity,
                        const double                   dt,
                        Guesses                       &guesses) const;
 

@@ -5,6 +5,7 @@
 #define treacle_surface_marker_motion_h
 
 #include <treacle/fields/state.h>
+#include <treacle/mesh/tracer.h>
 
 namespace treacle
 {
@@ -12,12 +13,12 @@ namespace treacle
   /// turned and sheared as the surface is. Collective.
   template <int dim>
   std::vector<Marker<dim>>
-  moved_markers(const State<dim> &state, const NodeVector<dim> &velocity, const double dt);
+  moved_markers(const State<dim> &state, const VelocityInStep<dim> &velocity, const double dt);
 
   /// The same of the material points of a state that carries material.
   template <int dim>
   std::vector<MaterialPoint<dim>>
-  moved_material(const State<dim> &state, const NodeVector<dim> &velocity, const double dt);
+  moved_material(const State<dim> &state, const VelocityInStep<dim> &velocity, const double dt);
 } // namespace treacle
 
 #endif

@@ -10,6 +10,7 @@
 #include <treacle/surface/marker_motion.h>
 #include <treacle/surface/surface_geometry.h>
 #include <treacle/transport/free_fall.h>
+#include <treacle/transport/velocity_in_time.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -71,7 +72,7 @@ namespace treacle
     move_surface(const std::vector<Point<dim>> &x) const
     {
       Guesses none;
-      return Tracer<dim>(*old.mesh).path_ends(x, surface_velocity, dt, none);
+      return Tracer<dim>(*old.mesh).path_ends(x, velocity.surface, dt, none);
     }
 
     /// The old velocity, continued in time to the end of the step, at the nodes of a mesh.
@@ -82,14 +83,14 @@ namespace treacle
     std::vector<Marker<dim>>
     move_markers() const
     {
-      return moved_markers(old, surface_velocity, dt);
+      return moved_markers<dim>(old, velocity.surface, dt);
     }
 
     /// The same of the material points of a state that has some.
     std::vector<MaterialPoint<dim>>
     move_material() const
     {
-      return moved_material(old, surface_velocity, dt);
+      return moved_material<dim>(old, velocity.surface, dt);
     }
 
     /// phi at points of the new time.
@@ -111,7 +112,7 @@ namespace treacle
     /// Fields that @p velocity carries on for dt.
     Carried
     carried(std::vector<NodeField<dim>> fields,
-            const NodeVector<dim>      &velocity,
+            const VelocityInStep<dim>  &velocity,
             const double                dt,
             const double                reach) const;
 
@@ -171,9 +172,7 @@ namespace treacle
     const SurfaceGeometry<dim> &surface;
     const BackwardDifference    difference;
     const double                dt;
-    /// At nodes, in the middle of the step if the velocity before is known.
-    const NodeVector<dim> velocity;
-    const NodeVector<dim> surface_velocity; ///< what moves the surface, and material
+    const StepVelocity<dim>     velocity; ///< at nodes
   };
 } // namespace treacle
 

@@ -4,7 +4,7 @@
 #ifndef treacle_transport_back_and_forth_h
 #define treacle_transport_back_and_forth_h
 
-#include <treacle/mesh/mesh.h>
+#include <treacle/mesh/tracer.h>
 
 namespace treacle
 {
@@ -17,7 +17,7 @@ namespace treacle
   std::vector<Vector>
   back_and_forth_error(const Mesh<dim>                   &mesh,
                        const std::vector<const Vector *> &fields,
-                       const NodeVector<dim>             &velocity,
+                       const VelocityInStep<dim>         &velocity,
                        const double                       dt,
                        const std::vector<LocalIndex>     &known,
                        const std::vector<LocalIndex>     &corrected);

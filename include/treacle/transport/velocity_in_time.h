@@ -5,6 +5,10 @@
 #define treacle_transport_velocity_in_time_h
 
 #include <treacle/fields/backward_difference.h>
+#include <treacle/fields/liquid_domain.h>
+
+#include <array>
+#include <functional>
 
 namespace treacle
 {
@@ -23,17 +27,33 @@ namespace treacle
     return result;
   }
 
-  /// After a part of the step: as steady as it was before it.
+  /// The velocity of nodes at the begin of a step, in its middle and at its end.
   template <int dim>
-  NodeVector<dim>
-  velocity_after(const double              part_of_step,
-                 const State<dim>         &old,
-                 const BackwardDifference &difference)
+  struct StepVelocity
   {
-    const double part =
-      difference.before == 0 ? 0. : part_of_step * difference.dt / old.before->dt;
-    return combined(1 + part, old.v, -part, part == 0 ? old.v : *old.before->v);
-  }
+    std::array<NodeVector<dim>, 3> carried; ///< by which velocity is carried along
+    std::array<NodeVector<dim>, 3> surface; ///< that moves the surface, and material
+  };
+
+  /// The velocity that moves the surface, of one of the liquid, both at nodes. Collective.
+  template <int dim>
+  using SurfaceVelocityOf = std::function<NodeVector<dim>(const NodeVector<dim> &)>;
+
+  /// The velocity of a state and that of its surface, continued through the step of a backward difference with what the
+  /// liquid carries along,
+  ///
+  ///   v(x, s) = v^n(y) + s/dt' (v^n(z) - v^{n-1}(z')),
+  ///
+  /// with dt' the step before. What is at x after s was at y at the begin of the step; the way from z' to z, which takes dt',
+  /// has the same middle as that from y to x, so that what turns steadily goes on to. For components that are held, and farther
+  /// than @p reach (m) from the liquid, y, z and z' are x. Where no velocity is known before, v stays as it is. Collective.
+  template <int dim>
+  StepVelocity<dim>
+  velocity_in_step(const State<dim>             &state,
+                   const LiquidDomain<dim>      &domain,
+                   const BackwardDifference     &difference,
+                   const double                  reach,
+                   const SurfaceVelocityOf<dim> &of_surface);
 } // namespace treacle
 
 #endif
