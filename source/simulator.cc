@@ -142,8 +142,7 @@ namespace treacle
         set_initial_material(state, *liquid.mesh_data);
         movement.settle_material(state, *liquid.mesh_data);
       }
-    liquid.surface = std::make_unique<const SurfaceGeometry<dim>>(mesh, state.phi);
-    movement.tracking.reseed(state, scene, *liquid.surface);
+    liquid.surface = movement.tracking.begin(state, *liquid.mesh_data);
     liquid.find(prm.liquid_domain);
     volume = liquid.domain->total_volume();
     set_initial_velocity(state, *liquid.domain);

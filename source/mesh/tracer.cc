@@ -17,20 +17,12 @@ namespace treacle
                   ExcMessage("A point to be traced is not finite: " + to_text(x, 6) + "."));
     }
 
-    /// Of the velocities at the stages of Kutta's method, which are at 0, 1/2 and all of the step.
+    /// Of the velocities at the stages of Ralston's method, which are at 0, 1/2 and 3/4 of the step.
     template <typename Velocity>
     Velocity
     mean_of_stages(const Velocity &first, const Velocity &second, const Velocity &third)
     {
-      return (first + 4. * second + third) * (1. / 6.);
-    }
-
-    /// That leads to the third stage.
-    template <typename Velocity>
-    Velocity
-    to_third_stage(const Velocity &first, const Velocity &second)
-    {
-      return 2. * second - first;
+      return (2. * first + 3. * second + 4. * third) * (1. / 9.);
     }
 
     /// In the order of the stages of paths forwards or backwards.
@@ -38,9 +30,10 @@ namespace treacle
     std::array<const NodeVector<dim> *, 3>
     stages(const VelocityInStep<dim> &velocity, const double dt)
     {
+      const auto &v = velocity.after;
       if (dt < 0)
-        return {velocity.end, velocity.middle, velocity.begin};
-      return {velocity.begin, velocity.middle, velocity.end};
+        return {{v[4], v[2], v[1]}};
+      return {{v[0], v[2], v[3]}};
     }
   } // namespace
 
@@ -158,7 +151,7 @@ namespace treacle
     const auto v  = stages(velocity, dt);
     const auto k1 = value_here(x, *v[0], guess);
     const auto k2 = k1 ? value_here(x + 0.5 * dt * *k1, *v[1], guess) : k1;
-    const auto k3 = k2 ? value_here(x + dt * to_third_stage(*k1, *k2), *v[2], guess) : k2;
+    const auto k3 = k2 ? value_here(x + 0.75 * dt * *k2, *v[2], guess) : k2;
     if (!k3)
       return {};
     return x + dt * mean_of_stages(*k1, *k2, *k3);
@@ -216,9 +209,8 @@ namespace treacle
     };
     const std::vector<double> k1 = evaluate(x, fields_of(*v[0]), guesses);
     const std::vector<double> k2 = evaluate(advanced(k1, 0.5 * dt), fields_of(*v[1]), guesses);
+    const std::vector<double> k3 = evaluate(advanced(k2, 0.75 * dt), fields_of(*v[2]), guesses);
     std::vector<double>       k(k1.size());
-    std::transform(k1.begin(), k1.end(), k2.begin(), k.begin(), to_third_stage<double>);
-    const std::vector<double> k3 = evaluate(advanced(k, dt), fields_of(*v[2]), guesses);
     for (unsigned int i = 0; i < k.size(); ++i)
       k[i] = mean_of_stages(k1[i], k2[i], k3[i]);
     return advanced(k, dt);

@@ -51,43 +51,78 @@ namespace treacle
       return thickness < thinnest_film * h && first.distance <= 0 ? std::max(old, of_film) : of_film;
     }
 
-    /// phi at a node from the markers around it; those on the far side of a thin part
-    /// or of a corner do not count.
+    /// Cosine of the angle between the sides of thin parts and gaps, at most.
+    constexpr double facing_away = -0.3;
+
+    /// The markers around a point of one side of a thin part or corner, and of the other.
+    template <int dim>
+    struct Sides
+    {
+      static constexpr double beside = 0.05; ///< cosine; faces at right angles are not to count by roundoff
+
+      std::vector<const NearMarker<dim> *> same, opposed;
+      bool                                 is_smooth; ///< has phi a value at all of the same side
+      double                               sum, residual; ///< of weights, and by these of phi
+
+      void
+      find(const Point<dim> &x, const AroundPoint<dim> near, const Tensor<1, dim> &facing, const double h)
+      {
+        same.clear();
+        opposed.clear();
+        is_smooth = true;
+        sum = residual = 0;
+        for (const NearMarker<dim> *m : near)
+          {
+            const double along = m->marker.normal * facing;
+            if (along < facing_away)
+              opposed.push_back(m);
+            if (along <= beside)
+              continue;
+            same.push_back(m);
+            const double w = MarkerSheet<dim>::weight((x - m->marker.position).norm_square(), h);
+            is_smooth      = is_smooth && !std::isnan(m->value);
+            sum += w;
+            residual += w * m->value;
+          }
+      }
+    };
+
+    /// phi at a point from the markers around it, if any; those on the far side of a thin part or of a corner do not
+    /// count. Where phi is smooth it has only to become zero at them, if @p phi_is_known there.
     template <int dim>
     double
     corrected(const Point<dim>      &x,
               const double           old,
               const AroundPoint<dim> near,
-              const double           h)
+              const Marker<dim>     &nearest,
+              const double           h,
+              const bool             phi_is_known)
     {
-      const Tensor<1, dim> facing = nearest<dim>(x, near).normal;
-      static thread_local std::vector<const NearMarker<dim> *> same, opposed;
-      same.clear();
-      opposed.clear();
-      bool   is_smooth = true;
-      double sum = 0, residual = 0;
-      for (const NearMarker<dim> *m : near)
-        {
-          const double along = m->marker.normal * facing;
-          if (along < -0.3)
-            opposed.push_back(m);
-          if (along <= 0)
-            continue;
-          same.push_back(m);
-          const double w =
-            MarkerSheet<dim>::weight((x - m->marker.position).norm_square(), h);
-          is_smooth = is_smooth && !std::isnan(m->value);
-          sum += w;
-          residual += w * m->value;
-        }
-      if (sum == 0)
+      static thread_local Sides<dim> sides;
+      sides.find(x, near, nearest.normal, h);
+      if (sides.sum == 0)
         return old;
       const double wanted =
-        opposed.empty() && is_smooth ?
-          old - residual / sum :
-          distance_from_sheets<dim>(x, old, view<dim>(same), view<dim>(opposed), h);
+        phi_is_known && sides.opposed.empty() && sides.is_smooth ?
+          old - sides.residual / sides.sum :
+          distance_from_sheets<dim>(x, old, view<dim>(sides.same), view<dim>(sides.opposed), h);
       // a lone marker far away must not have its way with a node
-      return old + std::min(sum, 1.) * (wanted - old);
+      return old + std::min(sides.sum, 1.) * (wanted - old);
+    }
+
+    /// May a surface cut an edge with these distances at its ends, half of which is @p half (m) long? Elsewhere errors of phi, as
+    /// between the sides of a sheet, are no error of its volume.
+    bool
+    may_be_cut(const double a, const double b, const double half)
+    {
+      return (a < 0) != (b < 0) || std::max(std::abs(a), std::abs(b)) < half;
+    }
+
+    /// The same with the distance in its middle.
+    bool
+    is_cut(const double a, const double b, const double middle)
+    {
+      return std::min({a, b, middle}) < 0 && std::max({a, b, middle}) >= 0;
     }
   } // namespace
 
@@ -96,21 +131,33 @@ namespace treacle
     : mesh(*state.mesh)
     , position(positions(state.markers))
     , markers(mesh, state.markers, MarkerSheet<dim>::reach)
-    , of_node(mesh.n_owned_nodes(), {invalid, invalid})
+    , of_node(mesh.n_owned_nodes())
   {}
 
   template <int dim>
-  typename MarkerCorrection<dim>::Near
+  const typename MarkerCorrection<dim>::AroundNode &
   MarkerCorrection<dim>::around(const LocalIndex node, const double size)
   {
-    auto &[begin, end] = of_node[node];
-    if (begin == invalid)
+    constexpr double alike = 0.45; // cosine; 0.5 is that of the chamfers of a box at its corners
+    AroundNode      &result = of_node[node];
+    if (result.begin != invalid)
+      return result;
+    const Point<dim> &x = mesh.node_position[node];
+    result.begin        = near.size();
+    markers.append_around(x, size, near);
+    result.end = near.size();
+    if (const auto about = all(result); about.size() > 0)
       {
-        begin = near.size();
-        markers.append_around(mesh.node_position[node], size, near);
-        end = near.size();
+        const Marker<dim> &first = nearest<dim>(x, about);
+        result.nearest           = &first;
+        for (const NearMarker<dim> *m : about)
+          {
+            const double along = m->marker.normal * first.normal;
+            result.is_thin     = result.is_thin || along < alike;
+            result.has_sides   = result.has_sides || along < facing_away;
+          }
       }
-    return Near(near.data() + begin, end - begin);
+    return result;
   }
 
   template <int dim>
@@ -129,10 +176,93 @@ namespace treacle
         const double h = surface_size_at_node(mesh, node);
         if (std::abs(phi) > 3 * h)
           continue;
-        if (const Near near = around(node, h); near.size() > 0)
-          phi = corrected<dim>(mesh.node_position[node], phi, near, h);
+        if (const auto &about = around(node, h); about.nearest)
+          phi = corrected<dim>(mesh.node_position[node], phi, all(about), *about.nearest, h, true);
       }
     state.phi.update_ghost_values();
+  }
+
+  template <int dim>
+  std::optional<double>
+  MarkerCorrection<dim>::in_middle(const Vector &phi, const LocalIndex node, const LocalIndex other, const double size)
+  {
+    const double         a = phi.local_element(node), b = phi.local_element(other);
+    const Tensor<1, dim> half = 0.5 * (mesh.node_position[other] - mesh.node_position[node]);
+    if (!may_be_cut(a, b, half.norm()))
+      return {};
+    static thread_local std::vector<const NearMarker<dim> *> about;
+    about.clear();
+    const Point<dim> x = mesh.node_position[node] + half;
+    markers.append_around(x, size, about);
+    if (about.empty())
+      return {};
+    const double old      = 0.5 * (a + b);
+    const double distance = corrected<dim>(x, old, view<dim>(about), nearest<dim>(x, view<dim>(about)), size, false);
+    return distance != old && is_cut(a, b, distance) ? std::make_optional(distance) : std::nullopt;
+  }
+
+  template <int dim>
+  std::vector<typename MarkerCorrection<dim>::ThinNode>
+  MarkerCorrection<dim>::thin_nodes(const State<dim> &state, const MeshData<dim> &data)
+  {
+    const Vector              &phi            = state.phi;
+    const std::vector<double> &solid_distance = data.solid_distance(state.time);
+    constexpr double          deep = 1.5; // leaves
+    std::vector<ThinNode>     result;
+    std::vector<unsigned int> number(mesh.n_owned_nodes(), invalid); // in the result, of nodes
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      {
+        const double distance = std::abs(phi.local_element(node));
+        if (distance > deep * mesh.surface_size())
+          continue;
+        const double h = surface_size_at_node(mesh, node);
+        if (distance > deep * h || !around(node, h).is_thin)
+          continue;
+        // gaps are to close, sheets to stay; into solids the surface goes on as it comes
+        const bool may_rise = !around(node, h).has_sides && solid_distance[node] > 2 * h;
+        ThinNode   at{node, h, may_rise, 0, {}, 0};
+        for (const auto &[other, n_cells] : data.neighbours(node))
+          if (other != node)
+            {
+              at.n_cells += n_cells;
+              const bool is_known =
+                other < mesh.n_owned_nodes() && number[other] != invalid && result[number[other]].size == h;
+              if (const auto middle = is_known ? result[number[other]].middle_to(node) : in_middle(phi, node, other, h))
+                at.middles.push_back({other, n_cells, *middle});
+            }
+        number[node] = result.size();
+        result.push_back(std::move(at));
+      }
+    return result;
+  }
+
+  template <int dim>
+  void
+  MarkerCorrection<dim>::fill_thin_parts(State<dim> &state, const MeshData<dim> &data)
+  {
+    // the mean over a cell is as much larger than that over the middles of its edges, if phi is quadratic
+    constexpr double       in_cell  = 2. * dim / (dim + 2);
+    constexpr unsigned int n_rounds = 2;
+    const auto             phi      = [&](const LocalIndex node) { return state.phi.local_element(node); };
+    std::vector<ThinNode>  thin     = thin_nodes(state, data);
+    for (unsigned int round = 0; round < n_rounds; ++round)
+      {
+        std::vector<double> wanted;
+        for (const ThinNode &at : thin)
+          {
+            double above = 0;
+            for (const MiddleOfEdge &middle : at.middles)
+              above += middle.n_cells * (0.5 * (phi(at.node) + phi(middle.other)) - middle.distance);
+            const double by = at.lowered + in_cell * above / at.n_cells;
+            wanted.push_back(at.may_rise ? by : std::max(0., by));
+          }
+        for (unsigned int k = 0; k < thin.size(); ++k)
+          {
+            state.phi.local_element(thin[k].node) += thin[k].lowered - wanted[k];
+            thin[k].lowered = wanted[k];
+          }
+        state.phi.update_ghost_values();
+      }
   }
 
   template class MarkerCorrection<2>;

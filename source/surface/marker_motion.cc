@@ -58,7 +58,7 @@ namespace treacle
     std::vector<Point<dim>>       middle(from.size());
     for (unsigned int k = 0; k < from.size(); ++k)
       middle[k] = from[k] + 0.5 * (to[k] - from[k]);
-    const std::vector<double> gradients = velocity_gradients(mesh, *velocity.middle, middle, guesses);
+    const std::vector<double> gradients = velocity_gradients(mesh, *velocity.after[2], middle, guesses);
     std::vector<Marker<dim>>  moved(from.size());
     for (unsigned int k = 0; k < from.size(); ++k)
       moved[k] = {to[k], turned(state.markers[k].normal, &gradients[k * dim * dim], dt)};

@@ -54,6 +54,21 @@ namespace treacle
   } // namespace
 
   template <int dim>
+  std::unique_ptr<const SurfaceGeometry<dim>>
+  SurfaceTracking<dim>::begin(State<dim> &state, const MeshData<dim> &data) const
+  {
+    const auto geometry = [&] { return std::make_unique<const SurfaceGeometry<dim>>(state.mesh, state.phi); };
+    auto       surface  = geometry();
+    reseed(state, data.scene, *surface);
+    if (!has_markers())
+      return surface;
+    MarkerCorrection<dim>(state).fill_thin_parts(state, data);
+    surface = geometry();
+    reseed(state, data.scene, *surface);
+    return surface;
+  }
+
+  template <int dim>
   void
   SurfaceTracking<dim>::follow_markers(State<dim>          &state,
                                        const MeshData<dim> &data,
@@ -66,6 +81,7 @@ namespace treacle
         markers.apply(state);
         redistance(state, reach);
         markers.apply(state);
+        markers.fill_thin_parts(state, data);
       }
     else
       redistance(state, reach);

@@ -99,7 +99,7 @@ namespace treacle
   NodeVector<dim>
   Advection<dim>::velocity_at_end(const Mesh<dim> &mesh) const
   {
-    return at_nodes_of(mesh, velocity.carried[2]);
+    return at_nodes_of(mesh, velocity.carried[4]);
   }
 
   template <int dim>
@@ -209,7 +209,7 @@ namespace treacle
   {
     const NodeVector<dim> &v = *old.before->v;
     return {std::move(now),
-            carried(fields_of(v), velocity.carried[1], dt + old.before->dt, reach),
+            carried(fields_of(v), velocity.carried[2], dt + old.before->dt, reach),
             combined(0.5, old.v, 0.5, v),
             {old, domain}};
   }

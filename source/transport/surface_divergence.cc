@@ -91,6 +91,7 @@ namespace treacle
         , mesh(domain.mesh)
         , mass(mesh.nodes)
         , diagonal(mesh.nodes)
+        , preconditioner(mesh.nodes)
       {
         find_cells(phi, gradient);
         find_diagonal();
@@ -120,7 +121,7 @@ namespace treacle
                        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
                          z.local_element(node) =
                            has_weight(node) ?
-                             r.local_element(node) / diagonal.local_element(node) :
+                             r.local_element(node) / preconditioner.local_element(node) :
                              0.;
                      }});
         q.update_ghost_values();
@@ -186,11 +187,11 @@ namespace treacle
       }
 
       /// Of the matrix, about: the sum of its cells' own. What nothing beside it can move
-      /// has no weight.
+      /// has no weight. Smoothing is much the larger part of it where a cell has little liquid.
       void
       find_diagonal()
       {
-        std::vector<double> sum(mesh.node_position.size());
+        std::vector<double> sum(mesh.node_position.size()), smoothed(sum);
         for (const Cell &cell : cells)
           {
             double free = 0;
@@ -202,9 +203,17 @@ namespace treacle
                     std::pow(cell.volume * mesh.cell_gradients[cell.index][i][d], 2) /
                     mass.local_element(node);
             for (unsigned int i = 0; i <= dim; ++i)
-              sum[mesh.cell_nodes[cell.index][i]] += free;
+              {
+                sum[mesh.cell_nodes[cell.index][i]] += free;
+                smoothed[mesh.cell_nodes[cell.index][i]] +=
+                  smoothing * (dim + 1) * cell.volume * mesh.cell_gradients[cell.index][i].norm_square();
+              }
           }
-        std::copy_n(sum.begin(), mesh.n_owned_nodes(), diagonal.begin());
+        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+          {
+            diagonal.local_element(node)       = sum[node];
+            preconditioner.local_element(node) = (1 + least) * sum[node] + smoothed[node];
+          }
       }
 
       /// r = B v + (0.1 L + 1e-4 D) q, D the diagonal.
@@ -254,7 +263,8 @@ namespace treacle
       const Mesh<dim>         &mesh;
       std::vector<Cell>        cells;
       Vector mass;     ///< liquid of these cells about a node that moves (m^dim)
-      Vector diagonal; ///< positive where a node has a weight
+      Vector diagonal; ///< without smoothing; positive where a node has a weight
+      Vector preconditioner;
     };
   } // namespace
 

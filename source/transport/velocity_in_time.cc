@@ -63,6 +63,25 @@ namespace treacle
       passed.copy_to(change, values, held);
       return change;
     }
+
+    template <int dim>
+    std::array<NodeVector<dim>, 5>
+    steady(const NodeVector<dim> &v)
+    {
+      const auto copy = [&] { return combined(1, v, 0, v); };
+      return {{copy(), copy(), copy(), copy(), copy()}};
+    }
+
+    /// After a quarter and three of them, quadratic in time.
+    template <int dim>
+    void
+    find_quarters(std::array<NodeVector<dim>, 5> &v)
+    {
+      v[1] = combined(1, combined(0.375, v[0], 0.75, v[2]), -0.125, v[4]);
+      v[3] = combined(1, combined(0.375, v[4], 0.75, v[2]), -0.125, v[0]);
+      for (NodeVector<dim> &each : v) // ghosts of what is moved may be lost
+        each.update_ghost_values();
+    }
   } // namespace
 
   template <int dim>
@@ -73,10 +92,8 @@ namespace treacle
                    const double                  reach,
                    const SurfaceVelocityOf<dim> &of_surface)
   {
-    const auto            copy    = [](const NodeVector<dim> &v) { return combined(1, v, 0, v); };
     const NodeVector<dim> surface = of_surface(state.v);
-    StepVelocity<dim>     result{{{copy(state.v), copy(state.v), copy(state.v)}},
-                             {{copy(surface), copy(surface), copy(surface)}}};
+    StepVelocity<dim>     result{steady(state.v), steady(surface)};
     if (difference.before == 0)
       return result;
     const NodeVector<dim>           &before = *state.before->v;
@@ -104,11 +121,11 @@ namespace treacle
           passed.copy_to(v, values, held);
           return v;
         };
-        result.carried[half] = continued(state.v, change, domain.constrained);
-        result.surface[half] = continued(surface, change_of_surface, none);
-        result.carried[half].update_ghost_values(); // those of what is moved may be lost
-        result.surface[half].update_ghost_values();
+        result.carried[2 * half] = continued(state.v, change, domain.constrained);
+        result.surface[2 * half] = continued(surface, change_of_surface, none);
       }
+    find_quarters(result.carried);
+    find_quarters(result.surface);
     return result;
   }
 

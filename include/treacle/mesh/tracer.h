@@ -40,23 +40,20 @@ namespace treacle
     return fields;
   }
 
-  /// The velocity of nodes at the begin of a step, in its middle and at its end, of which each stays as
-  /// it is. Is not an owner.
+  /// The velocity of nodes at the begin of a step, after each quarter of it, at its end; each of them stays
+  /// as it is. Is not an owner.
   template <int dim>
   struct VelocityInStep
   {
-    const NodeVector<dim> *begin, *middle, *end;
+    std::array<const NodeVector<dim> *, 5> after;
 
     VelocityInStep(const NodeVector<dim> &steady)
-      : begin(&steady)
-      , middle(&steady)
-      , end(&steady)
-    {}
+    {
+      after.fill(&steady);
+    }
 
-    VelocityInStep(const std::array<NodeVector<dim>, 3> &v)
-      : begin(&v[0])
-      , middle(&v[1])
-      , end(&v[2])
+    VelocityInStep(const std::array<NodeVector<dim>, 5> &v)
+      : after{{&v[0], &v[1], &v[2], &v[3], &v[4]}}
     {}
   };
 
@@ -86,7 +83,7 @@ namespace treacle
       return evaluate(x, fields, none);
     }
 
-    /// Where the paths through @p x lead in a step of size @p dt, with Kutta's method of order 3. Negative: where
+    /// Where the paths through @p x lead in a step of size @p dt, with Ralston's Runge-Kutta method of order 3. Negative: where
     /// those that end in x come from. Paths that leave the mesh end at its boundary. Guesses are for x, then for the ends.
     std::vector<Point<dim>>
     trace(const std::vector<Point<dim>> &x,

@@ -4,11 +4,15 @@
 #ifndef treacle_surface_marker_correction_h
 #define treacle_surface_marker_correction_h
 
+#include <treacle/fields/mesh_data.h>
 #include <treacle/fields/state.h>
 #include <treacle/mesh/tracer.h>
 #include <treacle/surface/near_markers.h>
 
 #include <deal.II/base/array_view.h>
+
+#include <algorithm>
+#include <optional>
 
 namespace treacle
 {
@@ -25,19 +29,75 @@ namespace treacle
     void
     apply(State<dim> &state);
 
-  private:
-    using Near = ArrayView<const NearMarker<dim> *const>;
+    /// Between nodes a P1 function is above the distance from a surface that is round or thin, and below it in a crease: a thread
+    /// of 0.9, 1.3, 1.8 leaves would have 37, 73, 87 % of its volume, by where it lies. Change phi of the same state about parts
+    /// as thin, and edges and creases as sharp as that, so that it is the distance from the markers in the mean over the middles
+    /// of edges. Between two sides, of a sheet or of a gap, which is to close, and near solids it is not raised. Collective.
+    void
+    fill_thin_parts(State<dim> &state, const MeshData<dim> &data);
 
-    /// Markers around a node, with leaves of a size (m) beside it.
-    Near
+  private:
+    /// Markers around an owned node, once they are found.
+    struct AroundNode
+    {
+      unsigned int       begin = invalid, end = invalid; ///< of near
+      const Marker<dim> *nearest = nullptr;
+      bool is_thin   = false; ///< do they face so differently that a thin part is near, or an edge or a crease?
+      bool has_sides = false; ///< do some face away from the nearest, or towards it?
+    };
+
+    /// The distance from the markers in the middle of an edge from a node.
+    struct MiddleOfEdge
+    {
+      LocalIndex   other; ///< node
+      unsigned int n_cells;
+      double       distance;
+    };
+
+    /// An owned node near a thin part or an edge, and the edges from it that the surface cuts.
+    struct ThinNode
+    {
+      LocalIndex                node;
+      double                    size;    ///< of leaves around it
+      bool                      may_rise; ///< phi
+      unsigned int              n_cells; ///< of all its edges
+      std::vector<MiddleOfEdge> middles;
+      double                    lowered; ///< by so much, in all
+
+      std::optional<double>
+      middle_to(const LocalIndex other) const
+      {
+        const auto middle =
+          std::find_if(middles.begin(), middles.end(), [&](const MiddleOfEdge &m) { return m.other == other; });
+        return middle == middles.end() ? std::nullopt : std::make_optional(middle->distance);
+      }
+    };
+
+    /// Those around a node, with leaves of a size (m) beside it.
+    const AroundNode &
     around(const LocalIndex node, const double size);
 
-    const Mesh<dim>                                      &mesh;
-    const std::vector<Point<dim>>                         position;
-    Guesses                                               guesses; ///< for the positions
-    MarkersWithinLeaves<dim>                              markers;
-    std::vector<const NearMarker<dim> *>                  near;    ///< of one node after another
-    std::vector<std::pair<unsigned int, unsigned int>>    of_node; ///< begin and end, once known
+    /// All that AroundNode says.
+    ArrayView<const NearMarker<dim> *const>
+    all(const AroundNode &about) const
+    {
+      return {near.data() + about.begin, about.end - about.begin};
+    }
+
+    /// The distance in the middle of an edge, where leaves have a @p size; none if the surface does not cut it, or markers do not
+    /// know the middle.
+    std::optional<double>
+    in_middle(const Vector &phi, const LocalIndex node, const LocalIndex other, const double size);
+
+    std::vector<ThinNode>
+    thin_nodes(const State<dim> &state, const MeshData<dim> &data);
+
+    const Mesh<dim>                     &mesh;
+    const std::vector<Point<dim>>        position;
+    Guesses                              guesses; ///< for the positions
+    MarkersWithinLeaves<dim>             markers;
+    std::vector<const NearMarker<dim> *> near; ///< of one node after another
+    std::vector<AroundNode>              of_node;
   };
 } // namespace treacle
 

@@ -36,6 +36,10 @@ namespace treacle
       : prm(parameters)
     {}
 
+    /// The surface of a state that has phi alone, which gets its markers, and thin parts their volume.
+    std::unique_ptr<const SurfaceGeometry<dim>>
+    begin(State<dim> &state, const MeshData<dim> &data) const;
+
     /// @p state has phi and markers of the new time, which correct it, and thin air that a step @p dt (s) like
     /// this one fills becomes liquid. Distances within @p reach (m).
     void

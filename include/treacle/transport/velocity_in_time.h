@@ -27,12 +27,12 @@ namespace treacle
     return result;
   }
 
-  /// The velocity of nodes at the begin of a step, in its middle and at its end.
+  /// The velocity of nodes at the begin of a step, after each quarter of it, at its end.
   template <int dim>
   struct StepVelocity
   {
-    std::array<NodeVector<dim>, 3> carried; ///< by which velocity is carried along
-    std::array<NodeVector<dim>, 3> surface; ///< that moves the surface, and material
+    std::array<NodeVector<dim>, 5> carried; ///< by which velocity is carried along
+    std::array<NodeVector<dim>, 5> surface; ///< that moves the surface, and material
   };
 
   /// The velocity that moves the surface, of one of the liquid, both at nodes. Collective.
@@ -46,7 +46,8 @@ namespace treacle
   ///
   /// with dt' the step before. What is at x after s was at y at the begin of the step; the way from z' to z, which takes dt',
   /// has the same middle as that from y to x, so that what turns steadily goes on to. For components that are held, and farther
-  /// than @p reach (m) from the liquid, y, z and z' are x. Where no velocity is known before, v stays as it is. Collective.
+  /// than @p reach (m) from the liquid, y, z and z' are x. So at half a step and at its end; quadratic in s between. Where no
+  /// velocity is known before, v stays as it is. Collective.
   template <int dim>
   StepVelocity<dim>
   velocity_in_step(const State<dim>             &state,
