@@ -64,6 +64,7 @@ namespace treacle
       return change;
     }
 
+    /// What stays as it is.
     template <int dim>
     std::array<NodeVector<dim>, 5>
     steady(const NodeVector<dim> &v)
@@ -72,15 +73,16 @@ namespace treacle
       return {{copy(), copy(), copy(), copy(), copy()}};
     }
 
-    /// After a quarter and three of them, quadratic in time.
+    /// After each quarter, quadratic in time.
     template <int dim>
-    void
-    find_quarters(std::array<NodeVector<dim>, 5> &v)
+    std::array<NodeVector<dim>, 5>
+    quarters(const NodeVector<dim> &begin, const NodeVector<dim> &middle, const NodeVector<dim> &end)
     {
-      v[1] = combined(1, combined(0.375, v[0], 0.75, v[2]), -0.125, v[4]);
-      v[3] = combined(1, combined(0.375, v[4], 0.75, v[2]), -0.125, v[0]);
-      for (NodeVector<dim> &each : v) // ghosts of what is moved may be lost
-        each.update_ghost_values();
+      const auto copy    = [](const NodeVector<dim> &v) { return combined(1, v, 0, v); };
+      const auto between = [&](const NodeVector<dim> &near, const NodeVector<dim> &far) {
+        return combined(1, combined(0.375, near, 0.75, middle), -0.125, far);
+      };
+      return {{copy(begin), between(begin, end), copy(middle), between(end, begin), copy(end)}};
     }
   } // namespace
 
@@ -93,9 +95,8 @@ namespace treacle
                    const SurfaceVelocityOf<dim> &of_surface)
   {
     const NodeVector<dim> surface = of_surface(state.v);
-    StepVelocity<dim>     result{steady(state.v), steady(surface)};
     if (difference.before == 0)
-      return result;
+      return {steady(state.v), steady(surface)};
     const NodeVector<dim>           &before = *state.before->v;
     const double                     dt     = state.before->dt;
     const std::vector<unsigned char> none(domain.constrained.size());
@@ -103,7 +104,8 @@ namespace treacle
     const NodeVector<dim> change = change_along_paths(state.v, before, dt, passed, domain.constrained);
     const NodeVector<dim> change_of_surface =
       change_along_paths(surface, of_surface(before), dt, passed, none);
-    const Tracer<dim> tracer(*state.mesh);
+    const Tracer<dim>            tracer(*state.mesh);
+    std::vector<NodeVector<dim>> carried, moving; // in the middle and at the end
     for (const unsigned int half : {1, 2})
       {
         const double after     = 0.5 * half * difference.dt;
@@ -121,12 +123,10 @@ namespace treacle
           passed.copy_to(v, values, held);
           return v;
         };
-        result.carried[2 * half] = continued(state.v, change, domain.constrained);
-        result.surface[2 * half] = continued(surface, change_of_surface, none);
+        carried.push_back(continued(state.v, change, domain.constrained));
+        moving.push_back(continued(surface, change_of_surface, none));
       }
-    find_quarters(result.carried);
-    find_quarters(result.surface);
-    return result;
+    return {quarters(state.v, carried[0], carried[1]), quarters(surface, moving[0], moving[1])};
   }
 
 #define INSTANTIATE(dim)                                                  \

@@ -88,7 +88,7 @@ namespace tests::transport_velocity_in_time
                                    v[1] = x[0] - 0.5;
                                    return v;
                                  }),
-                  {{2e-5, 2e-5, 1e-4, 1e-4}});
+                  {{2e-5, 1e-5, 1e-4, 1e-4}});
     }
 
     void

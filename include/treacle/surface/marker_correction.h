@@ -58,11 +58,11 @@ namespace treacle
     struct ThinNode
     {
       LocalIndex                node;
-      double                    size;    ///< of leaves around it
+      double                    size;     ///< of leaves around it
       bool                      may_rise; ///< phi
-      unsigned int              n_cells; ///< of all its edges
+      unsigned int              n_cells;  ///< of all its edges
       std::vector<MiddleOfEdge> middles;
-      double                    lowered; ///< by so much, in all
+      double                    lowered;  ///< by so much, in all
 
       std::optional<double>
       middle_to(const LocalIndex other) const
