@@ -3,6 +3,7 @@
 
 #include <treacle/base/exchange.h>
 #include <treacle/fields/initial_state.h>
+#include <treacle/geometry/beyond_wall.h>
 
 namespace treacle
 {
@@ -103,68 +104,18 @@ namespace treacle
 
   namespace
   {
-    /// In leaves: what is given as close to a wall as this touches it; how far from walls that is looked at.
-    constexpr double touching = 0.1, into_solids = 3, before_walls = 4;
-
-    /// The distance @p f to liquid at x as if it went on beyond a wall @p s (m) from there where it touches that: what it has of the
-    /// liquid's end at the wall is no surface. @p away (length 1) leads into the box, h (m) is the edge of the leaves. Alike for
-    /// all points before one point of the wall.
-    template <int dim>
-    double
-    beyond_wall(const Distance<dim>  &f,
-                const Point<dim>     &x,
-                const double          s,
-                const Tensor<1, dim> &away,
-                const double          h)
-    {
-      const double value      = f(x);
-      const auto   at         = [&](const double from_wall) { return f(x + (from_wall - s) * away); };
-      const auto   is_to_wall = [&](const double from_wall, const double phi) {
-        constexpr double small = 0.05; // leaves
-        return std::abs(phi + from_wall) < touching * h && at(from_wall + small * h) - phi < -0.9 * small * h;
-      };
-      if (s > before_walls * h || !is_to_wall(s, value))
-        return value;
-      // the free surface goes on straight
-      for (const double way : {0.5 * h, h, 2 * h, 4 * h})
-        {
-          const double near = at(way), far = at(2 * way);
-          if (!is_to_wall(way, near) && !is_to_wall(2 * way, far))
-            return std::min(value, near + (1 - s / way) * (near - far));
-        }
-      return std::min(value, at(before_walls * h));
-    }
-
-    /// The distance to liquids that go on beyond all sides of the box, and to emitters, which end there.
-    template <int dim>
-    Distance<dim>
-    beyond_sides(const Scene<dim> &scene, const double h)
-    {
-      Distance<dim> f = [&scene](const Point<dim> &x) { return scene.distance_to_liquids(x); };
-      for (unsigned int d = 0; d < dim; ++d)
-        f = [f, d, h, lower = scene.lower_corner()[d], upper = scene.upper_corner()[d]](Point<dim> x) {
-          x[d]              = std::min(std::max(x[d], lower), upper);
-          const bool is_low = x[d] - lower < upper - x[d];
-          return beyond_wall<dim>(f,
-                                  x,
-                                  is_low ? x[d] - lower : upper - x[d],
-                                  (is_low ? 1. : -1.) * Point<dim>::unit_vector(d),
-                                  h);
-        };
-      return [f, &scene](const Point<dim> &x) { return std::min(f(x), scene.emitter_distance(x, 0)); };
-    }
-
-    /// The same for solids at t = 0; in them the distance goes on as it is before their wall.
+    /// At t = 0, as if liquid went on beyond solids; in them the distance goes on as it is before their wall.
     template <int dim>
     double
     beyond_solids(const Scene<dim> &scene, const Distance<dim> &f, const Point<dim> &x, const double h)
     {
-      constexpr double farthest = 20; // leaves; a formula's distance may be too long
+      // leaves; a formula's distance may be too long
+      constexpr double farthest = 20, into_solids = 3;
       const double     phi      = f(x);
-      if (phi < -(before_walls + touching) * h || phi > farthest * h)
+      if (phi < -(AtWall::reach + AtWall::touching) * h || phi > farthest * h)
         return phi;
       const double s = scene.solid_distance(x, 0);
-      if (s > before_walls * h)
+      if (s > AtWall::reach * h)
         return phi;
       const Tensor<1, dim> gradient =
         gradient_of<dim>([&](const Point<dim> &p) { return scene.solid_distance(p, 0); }, x, 0.01 * h);
@@ -178,7 +129,7 @@ namespace treacle
       if (s >= 0)
         return before(s / slope);
       const double depth = -s / slope;
-      if (phi <= 0 || depth > into_solids * h || f(x + (depth + touching * h) * away) >= 0)
+      if (phi <= 0 || depth > into_solids * h || f(x + (depth + AtWall::touching * h) * away) >= 0)
         return phi;
       const double near = before(0.5 * depth), far = before(depth);
       return std::min(phi, near + 3 * (near - far));
@@ -189,8 +140,12 @@ namespace treacle
   Distance<dim>
   initial_distance(const Scene<dim> &scene, const bool has_box, const double h)
   {
-    const Distance<dim> f = has_box ? beyond_sides(scene, h) :
-                                      [&scene](const Point<dim> &x) { return scene.liquid_distance(x); };
+    Distance<dim> liquids = [&scene](const Point<dim> &x) { return scene.distance_to_liquids(x); };
+    if (has_box)
+      liquids = beyond_sides<dim>(liquids, BoundingBox<dim>({scene.lower_corner(), scene.upper_corner()}), h);
+    const Distance<dim> f = [liquids, &scene](const Point<dim> &x) {
+      return std::min(liquids(x), scene.emitter_distance(x, 0));
+    };
     if (!scene.has_solids())
       return f;
     return [&scene, f, h](const Point<dim> &x) { return beyond_solids<dim>(scene, f, x, h); };

@@ -16,21 +16,10 @@ namespace treacle
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
     if (n_ranks == 1)
       return items;
-    const unsigned int      rank = Utilities::MPI::this_mpi_process(comm);
-    const Locator<dim>     &locator = mesh.locator();
-    std::vector<Point<dim>> elsewhere;
-    std::vector<bool>       is_here;
-    for (const Item<dim> &item : items)
-      {
-        is_here.push_back(locator.locate(item.position).cell != invalid);
-        if (!is_here.back())
-          elsewhere.push_back(item.position);
-      }
-    const auto                           owner = locator.owners(elsewhere);
+    const auto                           owner = mesh.locator().owners(positions(items));
     PerRank<typename Item<dim>::Numbers> to_rank(n_ranks);
-    unsigned int                         next = 0;
     for (unsigned int k = 0; k < items.size(); ++k)
-      to_rank[is_here[k] ? rank : owner[next++].rank].push_back(items[k].numbers());
+      to_rank[owner[k].rank].push_back(items[k].numbers());
     std::vector<Item<dim>> owned;
     for (const auto &received : send_and_receive(comm, to_rank))
       for (const auto &numbers : received)

@@ -66,9 +66,6 @@ namespace treacle
 
     template <int dim>
     using Parameters = ShapeParameters<dim>;
-    template <int dim>
-    using Distance = typename Shape<dim>::Distance;
-
 
 
     template <int dim>

@@ -151,6 +151,29 @@ namespace treacle
   std::vector<typename TreeLocator<dim>::Owner>
   TreeLocator<dim>::owners(const std::vector<Point<dim>> &x) const
   {
+    const unsigned int        rank = Utilities::MPI::this_mpi_process(mesh.communicator());
+    std::vector<Owner>        result;
+    std::vector<Point<dim>>   asked;
+    std::vector<unsigned int> elsewhere;
+    for (const Point<dim> &p : x)
+      {
+        const Location<dim> location = locate(p);
+        result.push_back({rank, location.point});
+        if (location.cell != invalid)
+          continue;
+        elsewhere.push_back(result.size() - 1);
+        asked.push_back(p);
+      }
+    const std::vector<Owner> found = ask_for_owners(asked);
+    for (unsigned int k = 0; k < found.size(); ++k)
+      result[elsewhere[k]] = found[k];
+    return result;
+  }
+
+  template <int dim>
+  std::vector<typename TreeLocator<dim>::Owner>
+  TreeLocator<dim>::ask_for_owners(const std::vector<Point<dim>> &x) const
+  {
     // each rank that may have the cell tells how far it is, its number, and the point
     std::vector<unsigned int> ranks, whom, index;
     std::vector<Point<dim>>   asked;
@@ -195,21 +218,9 @@ namespace treacle
   std::vector<Point<dim>>
   TreeLocator<dim>::clamped(const std::vector<Point<dim>> &x) const
   {
-    std::vector<Point<dim>>   result, asked;
-    std::vector<unsigned int> elsewhere;
-    result.reserve(x.size());
-    for (const Point<dim> &p : x)
-      {
-        const Location<dim> location = locate(p);
-        result.push_back(location.point);
-        if (location.cell != invalid)
-          continue;
-        elsewhere.push_back(result.size() - 1);
-        asked.push_back(p);
-      }
-    const std::vector<Owner> owner = owners(asked);
-    for (unsigned int k = 0; k < asked.size(); ++k)
-      result[elsewhere[k]] = owner[k].point;
+    std::vector<Point<dim>> result;
+    for (const Owner &owner : owners(x))
+      result.push_back(owner.point);
     return result;
   }
 

@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/exceptions.h>
+#include <treacle/geometry/beyond_wall.h>
 #include <treacle/scene/emitter.h>
 
 namespace treacle
@@ -21,16 +22,31 @@ namespace treacle
     material.add_parameters(prm, "; as in Material if empty (Transport = advected).");
   }
 
+  namespace
+  {
+    /// No leaves are known here: those of the default level.
+    template <int dim>
+    Distance<dim>
+    beyond_sides_of(const BoundingBox<dim> &box, const Shape<dim> &shape)
+    {
+      double shortest = box.side_length(0);
+      for (unsigned int d = 1; d < dim; ++d)
+        shortest = std::min(shortest, box.side_length(d));
+      return beyond_sides<dim>([shape](const Point<dim> &x) { return shape.signed_distance(x); }, box, shortest / 64);
+    }
+  } // namespace
+
   template <int dim>
   Emitter<dim>::Emitter(const Parameters    &prm,
                         const std::string   &where,
                         const Material<dim> &otherwise,
+                        const BoundingBox<dim> &box,
                         const MPI_Comm      &comm)
     : where(where)
     , material(prm.material, where, &otherwise)
     , start_time(prm.start_time)
     , stop_time(prm.stop_time)
-    , shape(prm.shape, where, comm)
+    , distance(beyond_sides_of(box, Shape<dim>(prm.shape, where, comm)))
     , velocity_at(prm.velocity, where + "/Velocity")
   {
     require(start_time < stop_time, where + "/Stop time must be later than its Start time.");

@@ -120,7 +120,10 @@ namespace treacle
     : Solids<dim>(parameters.solids,
                   checked_box(parameters.lower_corner, parameters.upper_corner),
                   comm)
-    , Emitters<dim>(parameters.emitters, Material<dim>(parameters.material, "Material"), comm)
+    , Emitters<dim>(parameters.emitters,
+                    Material<dim>(parameters.material, "Material"),
+                    checked_box(parameters.lower_corner, parameters.upper_corner),
+                    comm)
     , lower(parameters.lower_corner)
     , upper(parameters.upper_corner)
     , walls(parse_wall_condition<dim>(parameters.wall_condition))

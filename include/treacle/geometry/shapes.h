@@ -4,9 +4,8 @@
 #ifndef treacle_geometry_shapes_h
 #define treacle_geometry_shapes_h
 
+#include <treacle/geometry/distance.h>
 #include <treacle/geometry/shape_parameters.h>
-
-#include <functional>
 
 namespace treacle
 {
@@ -16,8 +15,6 @@ namespace treacle
   class Shape
   {
   public:
-    using Distance = std::function<double(const Point<dim> &)>;
-
     using Parameters = ShapeParameters<dim>;
 
     /// @p where names the subsection in messages, as in "Liquid 1". Throws a
@@ -36,8 +33,8 @@ namespace treacle
     }
 
   private:
-    double   sign;
-    Distance distance;
+    double        sign;
+    Distance<dim> distance;
   };
 } // namespace treacle
 

@@ -39,6 +39,10 @@ namespace treacle
     Location<dim>
     in_tree(const Point<dim> &x, const bool owned) const;
 
+    /// Of points whose cells may be other ranks'. Collective.
+    std::vector<Owner>
+    ask_for_owners(const std::vector<Point<dim>> &x) const;
+
     Location<dim>
     on_wall(const typename CellTree<dim>::Nearest &nearest) const;
 

@@ -33,13 +33,15 @@ namespace treacle
     Emitter(const Parameters    &parameters,
             const std::string   &where,
             const Material<dim> &otherwise,
+            const BoundingBox<dim> &box,
             const MPI_Comm      &comm);
 
-    /// Negative inside (m).
+    /// Negative inside (m). It goes on beyond the sides of the box that it reaches: a surface there would lie along the side, and
+    /// liquid cover all of that.
     double
     signed_distance(const Point<dim> &x) const
     {
-      return shape.signed_distance(x);
+      return distance(x);
     }
 
     /// m/s. Throws a UserError where it is not finite.
@@ -59,7 +61,7 @@ namespace treacle
     const double        start_time, stop_time; // s
 
   private:
-    const Shape<dim>            shape;
+    const Distance<dim>         distance;
     const VectorExpression<dim> velocity_at;
   };
 } // namespace treacle

@@ -19,6 +19,7 @@ namespace treacle
     /// first rank reads files.
     Emitters(const Parameters    &parameters,
              const Material<dim> &otherwise,
+             const BoundingBox<dim> &box,
              const MPI_Comm      &comm);
 
     const std::vector<Emitter<dim>> &
