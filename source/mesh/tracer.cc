@@ -99,7 +99,7 @@ namespace treacle
     std::vector<unsigned int> ranks;
     for (const unsigned int i : elsewhere)
       asked.push_back(x[i]);
-    const auto owners = locator.owners(asked);
+    const auto owners = locator.owners_elsewhere(asked);
     for (unsigned int i = 0; i < owners.size(); ++i)
       {
         ranks.push_back(owners[i].rank);

@@ -164,7 +164,7 @@ namespace treacle
         elsewhere.push_back(result.size() - 1);
         asked.push_back(p);
       }
-    const std::vector<Owner> found = ask_for_owners(asked);
+    const std::vector<Owner> found = owners_elsewhere(asked);
     for (unsigned int k = 0; k < found.size(); ++k)
       result[elsewhere[k]] = found[k];
     return result;
@@ -172,7 +172,7 @@ namespace treacle
 
   template <int dim>
   std::vector<typename TreeLocator<dim>::Owner>
-  TreeLocator<dim>::ask_for_owners(const std::vector<Point<dim>> &x) const
+  TreeLocator<dim>::owners_elsewhere(const std::vector<Point<dim>> &x) const
   {
     // each rank that may have the cell tells how far it is, its number, and the point
     std::vector<unsigned int> ranks, whom, index;

@@ -37,11 +37,11 @@ namespace treacle
   } // namespace
 
   template <int dim>
-  Emitter<dim>::Emitter(const Parameters    &prm,
-                        const std::string   &where,
-                        const Material<dim> &otherwise,
+  Emitter<dim>::Emitter(const Parameters       &prm,
+                        const std::string      &where,
+                        const Material<dim>    &otherwise,
                         const BoundingBox<dim> &box,
-                        const MPI_Comm      &comm)
+                        const MPI_Comm         &comm)
     : where(where)
     , material(prm.material, where, &otherwise)
     , start_time(prm.start_time)

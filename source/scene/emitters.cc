@@ -9,10 +9,10 @@
 namespace treacle
 {
   template <int dim>
-  Emitters<dim>::Emitters(const Parameters    &parameters,
-                          const Material<dim> &otherwise,
+  Emitters<dim>::Emitters(const Parameters       &parameters,
+                          const Material<dim>    &otherwise,
                           const BoundingBox<dim> &box,
-                          const MPI_Comm      &comm)
+                          const MPI_Comm         &comm)
   {
     for (unsigned int k = 0; k < parameters.size(); ++k)
       list.emplace_back(parameters[k], numbered("Emitter", k), otherwise, box, comm);

@@ -51,19 +51,25 @@ namespace treacle
         });
       return Utilities::MPI::sum(area, state.mesh->communicator());
     }
+
+    template <int dim>
+    std::unique_ptr<const SurfaceGeometry<dim>>
+    surface_of(const State<dim> &state)
+    {
+      return std::make_unique<const SurfaceGeometry<dim>>(state.mesh, state.phi);
+    }
   } // namespace
 
   template <int dim>
   std::unique_ptr<const SurfaceGeometry<dim>>
   SurfaceTracking<dim>::begin(State<dim> &state, const MeshData<dim> &data) const
   {
-    const auto geometry = [&] { return std::make_unique<const SurfaceGeometry<dim>>(state.mesh, state.phi); };
-    auto       surface  = geometry();
+    auto surface = surface_of(state);
     reseed(state, data.scene, *surface);
     if (!has_markers())
       return surface;
     MarkerCorrection<dim>(state).fill_thin_parts(state, data);
-    surface = geometry();
+    surface = surface_of(state);
     reseed(state, data.scene, *surface);
     return surface;
   }
@@ -107,7 +113,7 @@ namespace treacle
   {
     if (prm.volume_correction)
       correct_volume(state, data, volume);
-    return std::make_unique<const SurfaceGeometry<dim>>(state.mesh, state.phi);
+    return surface_of(state);
   }
 
   template <int dim>

@@ -64,13 +64,20 @@ namespace treacle
       return change;
     }
 
+    /// With ghosts, which deal.II does not copy.
+    template <int dim>
+    NodeVector<dim>
+    copy(const NodeVector<dim> &v)
+    {
+      return combined(1, v, 0, v);
+    }
+
     /// What stays as it is.
     template <int dim>
     std::array<NodeVector<dim>, 5>
     steady(const NodeVector<dim> &v)
     {
-      const auto copy = [&] { return combined(1, v, 0, v); };
-      return {{copy(), copy(), copy(), copy(), copy()}};
+      return {{copy(v), copy(v), copy(v), copy(v), copy(v)}};
     }
 
     /// After each quarter, quadratic in time.
@@ -78,7 +85,6 @@ namespace treacle
     std::array<NodeVector<dim>, 5>
     quarters(const NodeVector<dim> &begin, const NodeVector<dim> &middle, const NodeVector<dim> &end)
     {
-      const auto copy    = [](const NodeVector<dim> &v) { return combined(1, v, 0, v); };
       const auto between = [&](const NodeVector<dim> &near, const NodeVector<dim> &far) {
         return combined(1, combined(0.375, near, 0.75, middle), -0.125, far);
       };

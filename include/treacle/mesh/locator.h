@@ -86,6 +86,13 @@ namespace treacle
     virtual std::vector<Owner>
     owners(const std::vector<Point<dim>> &x) const = 0;
 
+    /// The same of points that locate() did not find here, which need not be looked for again. Collective.
+    virtual std::vector<Owner>
+    owners_elsewhere(const std::vector<Point<dim>> &x) const
+    {
+      return owners(x);
+    }
+
     /// Points moved into the mesh. Collective.
     virtual std::vector<Point<dim>>
     clamped(const std::vector<Point<dim>> &x) const = 0;

@@ -29,6 +29,9 @@ namespace treacle
     std::vector<Owner>
     owners(const std::vector<Point<dim>> &x) const override;
 
+    std::vector<Owner>
+    owners_elsewhere(const std::vector<Point<dim>> &x) const override;
+
     std::vector<Point<dim>>
     clamped(const std::vector<Point<dim>> &x) const override;
 
@@ -38,10 +41,6 @@ namespace treacle
     /// cells of this rank is only partly known here.
     Location<dim>
     in_tree(const Point<dim> &x, const bool owned) const;
-
-    /// Of points whose cells may be other ranks'. Collective.
-    std::vector<Owner>
-    ask_for_owners(const std::vector<Point<dim>> &x) const;
 
     Location<dim>
     on_wall(const typename CellTree<dim>::Nearest &nearest) const;

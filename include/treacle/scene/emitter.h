@@ -30,11 +30,11 @@ namespace treacle
 
     /// @p where names the subsection in messages; what @p parameters leave out of the
     /// material is as in @p otherwise. Collective.
-    Emitter(const Parameters    &parameters,
-            const std::string   &where,
-            const Material<dim> &otherwise,
+    Emitter(const Parameters       &parameters,
+            const std::string      &where,
+            const Material<dim>    &otherwise,
             const BoundingBox<dim> &box,
-            const MPI_Comm      &comm);
+            const MPI_Comm         &comm);
 
     /// Negative inside (m). It goes on beyond the sides of the box that it reaches: a surface there would lie along the side, and
     /// liquid cover all of that.

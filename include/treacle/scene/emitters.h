@@ -17,10 +17,10 @@ namespace treacle
 
     /// What their parameters leave out of a material is as in @p otherwise. Collective, for the
     /// first rank reads files.
-    Emitters(const Parameters    &parameters,
-             const Material<dim> &otherwise,
+    Emitters(const Parameters       &parameters,
+             const Material<dim>    &otherwise,
              const BoundingBox<dim> &box,
-             const MPI_Comm      &comm);
+             const MPI_Comm         &comm);
 
     const std::vector<Emitter<dim>> &
     emitters() const
