@@ -240,11 +240,10 @@ namespace treacle
       void
       project_to(const Distance<dim> &bodies, Marker<dim> &seed) const
       {
-        const double         h        = size_at(seed.position);
-        const Tensor<1, dim> gradient = gradient_of<dim>(bodies, seed.position, 1e-3 * h);
-        const Tensor<1, dim> way      = bodies(seed.position) / gradient.norm_square() * gradient;
-        if (way.norm() < 0.5 * h)
-          seed = {seed.position - way, gradient / gradient.norm()};
+        const double      h  = size_at(seed.position);
+        const Marker<dim> on = marker_on(bodies, seed.position, 1e-3 * h);
+        if (on.position.distance(seed.position) < 0.5 * h)
+          seed = on;
       }
 
       void

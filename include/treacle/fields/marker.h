@@ -4,14 +4,12 @@
 #ifndef treacle_fields_marker_h
 #define treacle_fields_marker_h
 
-#include <deal.II/base/point.h>
+#include <treacle/geometry/distance.h>
 
 #include <array>
 
 namespace treacle
 {
-  using namespace dealii;
-
   /// A massless point on the surface. It remembers where the surface is better than
   /// phi does, and its normal which side of it is liquid.
   template <int dim>
@@ -47,6 +45,16 @@ namespace treacle
       return marker;
     }
   };
+
+  /// On the surface of a body whose distance is @p distance, where it is nearest to @p x (to first order, by differences over
+  /// +-d, m). Not a number where that has no gradient.
+  template <int dim>
+  Marker<dim>
+  marker_on(const Distance<dim> &distance, const Point<dim> &x, const double d)
+  {
+    const Tensor<1, dim> gradient = gradient_of<dim>(distance, x, d);
+    return {x - distance(x) / gradient.norm_square() * gradient, gradient / gradient.norm()};
+  }
 } // namespace treacle
 
 #endif

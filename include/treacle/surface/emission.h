@@ -10,8 +10,8 @@
 namespace treacle
 {
   /// Fills the emitters that were at work in the step of size @p dt that ends at
-  /// state.time, and those that start there: level set and carried material. The skin of a stream along the wall it comes from, and
-  /// markers in emitters, are removed. Returns the volume that flowed in
+  /// state.time, and those that start there: level set, markers and carried material. The skin of a stream along the wall it comes from
+  /// is removed. Returns the volume that flowed in
   /// (m^dim), which is less than the emitter's volume rate where the liquid around
   /// it takes part in the motion. Collective.
   template <int dim>
