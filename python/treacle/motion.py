@@ -8,27 +8,9 @@ import re
 import numpy
 
 from treacle.errors import DataError
+from treacle.formula import formula
 
-FUNCTIONS = {**{name: getattr(math, name) for name in ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh",
-                                                       "tanh", "exp", "sqrt", "floor", "ceil", "pow")},
-             "ln": math.log, "abs": abs, "min": min, "max": max, "pi": math.pi, "_pi": math.pi, "_e": math.e,
-             "when": lambda condition, yes, no: yes if condition else no}
 STEP = 1 / 128  # s, at most, of what is integrated
-
-
-def formula(text):
-    """A function of t (s) from a formula of a parameter file; DataError where it is not understood here."""
-    python = re.sub(r"\bif\s*\(", "when(", text.strip()).replace("^", "**")
-    python = python.replace("&&", " and ").replace("||", " or ")
-    number = r"(?<![\w.])(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
-    names = set(re.findall(r"[A-Za-z_]\w*", re.sub(number, "", python))) - {"and", "or"}
-    try:
-        if not names <= {*FUNCTIONS, "t"} or not re.fullmatch(r"[\w\s.,()+\-*/<>=!]+", python):
-            raise SyntaxError
-        code = compile(python, "formula", "eval")
-    except SyntaxError:
-        raise DataError(f"pictures do not understand the formula '{text}'") from None
-    return lambda t: float(eval(code, {"__builtins__": {}}, {**FUNCTIONS, "t": t}))
 
 
 def rotation(turn):
@@ -51,7 +33,7 @@ class Motion:
     def __init__(self, parameters, dim):
         def formulas(name, n):
             texts = parameters.get(name, "0").split(";")
-            return [formula(text) for text in (texts if len(texts) == n else texts[:1] * n)]
+            return [formula(text, "t") for text in (texts if len(texts) == n else texts[:1] * n)]
 
         def moves(*names):
             return any(re.search(r"[1-9A-Za-z]", parameters.get(name, "0")) for name in names)

@@ -20,6 +20,7 @@ from treacle.surface import read_surface
 class Solid(NamedTuple):
     """A solid as the parameters describe it."""
     shape: str          # as in the parameter file
+    text: Callable      # from a parameter's name to its value
     numbers: Callable   # from a parameter's name to an array of its numbers
     is_inverted: bool   # a container: solid outside the shape
     pose: Callable      # from a time (s) to treacle.motion.Motion.pose, or None where its formulas are not understood
@@ -80,6 +81,7 @@ class Run:
             if not any(name.startswith(block) for name in self.parameters):
                 return
             yield Solid(self.parameters.get(block + "Shape", "sphere"),
+                        lambda name, block=block: self.get(block + name),
                         lambda name, block=block: self.numbers(block + name),
                         self.parameters.get(block + "Invert") == "true",
                         lambda time, block=block: self._pose(block, time))

@@ -13,9 +13,12 @@ import numpy
 from synthetic_run import write_run
 
 from treacle import DataError, Run, read_parameters, read_statistics, read_surface, read_timing
+from treacle.bodies import distance
+from treacle.formula import formula
 from treacle.layers import problems
 from treacle.mesh import Mesh
-from treacle.motion import Motion, formula
+from treacle.motion import Motion
+from treacle.run import Solid
 from treacle.stream import area_of_cut, centre_of_cut, coiling, folding
 from treacle.sweep import Scene, Verdict
 
@@ -189,7 +192,34 @@ class MotionTest(unittest.TestCase):
             Motion({"Displacement": "if(t > 0, sin(t)/t, 1); 0"}, 2).pose(0)
         for text in "log(t)", "__import__('os')", "t; t", "f(t)":
             with self.assertRaises(DataError):
-                formula(text)
+                formula(text, "t")
+
+
+class BodiesTest(unittest.TestCase):
+    """Distances of points that are known by looking."""
+
+    def check(self, shape, distances, **parameters):
+        solid = Solid(shape, parameters.get, lambda name: numpy.array(parameters[name], dtype=float), False, None)
+        points, expected = zip(*distances.items())
+        numpy.testing.assert_allclose(distance(solid, numpy.array(points, dtype=float)), expected, atol=1e-12)
+
+    def test_3d(self):
+        centre = {"Centre": [1, 0, 0]}
+        self.check("sphere", {(1, 0, 0): -2, (1, 0, 5): 3}, Radius=[2], **centre)
+        self.check("box", {(3, 4, 0.5): 5, (-1, -1, 0.5): -0.5, (0, 0, 3): 2},
+                   **{"Lower corner": [-4, -4, 0], "Upper corner": [0, 0, 1]})
+        self.check("cylinder", {(1, 0, 0): -1, (1, 5, 0): 4, (5, 0, 6): math.hypot(3, 2)},
+                   Radius=[1], Length=[8], Axis=[0, 0, 2], **centre)
+        self.check("capsule", {(0, 0, 2): -1, (0, 3, 4): 2, (0, 0, -2): 1}, Start=[0, 0, 0], End=[0, 0, 4], Radius=[1])
+        self.check("capsule", {(3, 0, 0): 1}, Start=[1, 0, 0], End=[1, 0, 0], Radius=[1])
+        self.check("torus", {(1, 0, 0): 2, (4, 0, 0): -1, (4, 0, 4): 3},
+                   Radius=[3], Axis=[0, 0, 1], **{"Minor radius": [1], **centre})
+        self.check("half space", {(7, 3, 0): 3, (7, -3, 0): -3}, Normal=[0, 2, 0], **centre)
+        self.check("expression", {(1, 2, 0): 2, (1, 0, 0): math.inf}, Expression="x^2/y + if(z < 0, 1, 1.5)")
+
+    def test_2d(self):
+        self.check("cylinder", {(0, 0): -1, (0, 3): 2, (6, 4): 3}, Radius=[1], Length=[12], Axis=[1, 0], Centre=[0, 0])
+        self.check("torus", {(0, 0): 2, (0, 4): 0, (3, 0): -1}, Radius=[3], Centre=[0, 0], **{"Minor radius": [1]})
 
 
 class StreamTest(InDirectory):

@@ -2,19 +2,23 @@
 # Copyright (C) the Treacle authors
 """Pictures of two-dimensional runs: the liquid's outline, filled, or the mesh."""
 
+import sys
+
 import numpy
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle, PathPatch, Rectangle
+from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.path import Path
-from matplotlib.transforms import Affine2D
 
+from treacle.bodies import distance
+from treacle.errors import DataError
 from treacle.outline import liquid_loops
 from treacle.render.cells import walls, weld, wet_polygons
 from treacle.render.pictures import mesh_colours
 
 LIQUID, EDGE, SOLID, FRAME = "#f0b43c", "#8a5200", "#9aa0a6", "#3c4043"
+POINTS = 400  # in each direction, at which distances of solids are known
 LEVEL_SET = LinearSegmentedColormap.from_list(
     "level set", ["#b86a00", "#f0b43c", "#fbe7b8", "#e9eff5", "#b9cadb", "#7f9bb6"])
 
@@ -30,27 +34,34 @@ def draw_box(axes, run, time):
     if not run.has_mesh_file:
         axes.add_patch(Rectangle(run.lower, *(run.upper - run.lower), fill=False,
                                  edgecolor=FRAME, linewidth=1.5, zorder=5))
-    for shape, value, inside_out, pose in run.solids():
-        place = pose(time)
-        if place is None:
-            continue
-        if shape == "sphere":
-            patch = Circle(value("Centre"), value("Radius")[0])
-        elif shape == "box":
-            a, b = value("Lower corner"), value("Upper corner")
-            patch = Rectangle(a, *(b - a))
-        else:
-            continue
-        patch.set(facecolor="none" if inside_out else SOLID, edgecolor=FRAME, zorder=4)
-        axes.add_patch(patch)
-        matrix, shift = place
-        patch.set_transform(Affine2D(numpy.block([[matrix, shift[:, None]], [0, 0, 1]])) + axes.transData)
     margin = 0.02 * (run.upper - run.lower).max()
+    for solid in run.solids():
+        draw_solid(axes, solid, time, run.lower - margin, run.upper + margin)
     axes.set(aspect="equal", xlim=(run.lower[0] - margin, run.upper[0] + margin),
              ylim=(run.lower[1] - margin, run.upper[1] + margin))
     axes.tick_params(colors=FRAME)
     for side in axes.spines.values():
         side.set_visible(False)
+
+
+def draw_solid(axes, solid, time, lower, upper):
+    """What of a solid is between two corners, where its distance is negative."""
+    place = solid.pose(time)
+    if place is None:
+        return
+    matrix, shift = place
+    x, y = (numpy.linspace(a, b, POINTS) for a, b in zip(lower, upper))
+    points = numpy.stack(numpy.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    try:
+        values = distance(solid, (points - shift) @ matrix).reshape(POINTS, POINTS)
+    except DataError as error:
+        print(f"A solid is not in the pictures: {error}", file=sys.stderr)
+        return
+    far = (upper - lower).max()
+    values = values.clip(-far, far)
+    if not solid.is_inverted:
+        axes.contourf(x, y, values, levels=[-2 * far, 0], colors=[SOLID], zorder=4)
+    axes.contour(x, y, values, levels=[0], colors=[FRAME], linewidths=1, zorder=4)
 
 
 class Pictures2D:

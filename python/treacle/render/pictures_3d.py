@@ -2,13 +2,17 @@
 # Copyright (C) the Treacle authors
 """Pictures of three-dimensional runs: the liquid's surface, or a cut through the mesh."""
 
+import sys
+from functools import cached_property
+
 import numpy
 from matplotlib import colormaps
 from vtk import vtkMatrix4x4
 from vtk.util.numpy_support import vtk_to_numpy
 
+from treacle.errors import DataError
 from treacle.outline import merge, wall_caps
-from treacle.render.bodies import body
+from treacle.render.bodies import body, half_space
 from treacle.render.cells import boundary_faces
 from treacle.render.pictures import mesh_colours
 from treacle.render.poly_data import (add_point_data, colour_table, poly_data, polygons,
@@ -129,23 +133,31 @@ class Pictures3D:
         self.actors.append(actor)
         return actor
 
+    @cached_property
+    def _bodies(self):
+        """Solids, and where they were at t = 0, None if they go on for ever."""
+        result = []
+        for solid in self.run.solids():
+            try:
+                result.append((solid, None if solid.shape == "half space" else body(solid, self.run)))
+            except DataError as error:
+                print(f"A solid is not in the pictures: {error}", file=sys.stderr)
+        return result
+
     def _solids(self, time):
-        for shape, value, inside_out, pose in self.run.solids():
-            place = pose(time)
+        for solid, at_start in self._bodies:
+            place = solid.pose(time)
             if place is None:
                 continue
             matrix, shift = place
-            source = body(shape, value, self.run, matrix, shift)
-            if source is None:
-                continue
-            actor = self.studio.add(source)
-            if shape != "half space":
+            actor = self.studio.add(at_start or half_space(solid, self.run, matrix, shift))
+            if at_start:
                 actor.SetUserMatrix(vtkMatrix4x4())
                 actor.GetUserMatrix().DeepCopy([*numpy.hstack([matrix, shift[:, None]]).ravel(), 0, 0, 0, 1])
             material = actor.GetProperty()
             material.SetColor(*SOLID)
             material.SetInterpolationToPBR()
             material.SetRoughness(0.6)
-            if inside_out:
+            if solid.is_inverted:
                 material.SetOpacity(0.12)
             self.actors.append(actor)

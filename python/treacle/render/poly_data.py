@@ -61,10 +61,11 @@ def with_smooth_normals(data, facets):
     return data
 
 
-def with_normals(data):
+def with_normals(data, split=False):
+    """split: edges stay sharp."""
     normals = vtk.vtkPolyDataNormals()
     normals.SetInputData(data)
-    normals.SplittingOff()
+    normals.SetSplitting(split)
     normals.ConsistencyOff()
     normals.Update()
     return normals.GetOutput()
