@@ -3,53 +3,57 @@
 
 #include <treacle/base/exchange.h>
 #include <treacle/geometry/marching.h>
+#include <treacle/io/cell_parts.h>
 #include <treacle/io/liquid_surface.h>
 
 namespace treacle
 {
   namespace
   {
-    /// The part of this rank. A cell's liquid is where two P1 functions are negative, phi
+    /// The part of this rank. Liquid in a cell, or a part of one, is where two P1 functions are negative, phi
     /// and minus the solid distance: its surface is the zero of each where the other is
     /// negative. The two meet in points of triangles (a face; in 2D the cell), which are
-    /// computed from the values at the triangle's nodes in the order of their keys: so
+    /// computed from the values at the triangle's corners in the order of their keys: so
     /// cells and ranks agree on them.
     template <int dim>
     class OwnSurface
     {
     public:
       OwnSurface(const State<dim> &state, const LiquidDomain<dim> &domain)
-        : state(state)
-        , mesh(*state.mesh)
       {
-        for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
-          {
-            cell                        = c;
-            const VertexValues<dim> phi = mesh.values(c, state.phi);
-            if (*std::min_element(phi.begin(), phi.end()) >= 0)
-              continue;
-            VertexValues<dim> solid;
-            for (unsigned int i = 0; i <= dim; ++i)
-              {
-                solid[i] = -domain.solid_distance[mesh.cell_nodes[c][i]];
-                if (std::abs(solid[i]) < 1e-9 * mesh.finest_size())
-                  solid[i] = 0; // a solid on a lattice plane
-              }
-            add_facets(phi, solid, 1);
-            add_facets(solid, phi, 2);
-          }
+        CellParts<dim> parts(state, domain);
+        for (LocalIndex c = 0; c < state.mesh->n_owned_cells(); ++c)
+          parts.for_each_part(c, [&](const Simplex &part) { add(part); });
       }
 
       LiquidSurface<dim> surface;
 
     private:
-      using Edge   = std::array<unsigned char, 2>;
-      using Vertex = typename LiquidSurface<dim>::Vertex;
+      using Corner  = typename CellParts<dim>::Corner;
+      using Simplex = typename CellParts<dim>::Simplex;
+      using Edge    = std::array<unsigned char, 2>;
+      using Vertex  = typename LiquidSurface<dim>::Vertex;
 
-      VertexKey
+      void
+      add(const Simplex &corners)
+      {
+        simplex = &corners;
+        VertexValues<dim> liquid, solid;
+        for (unsigned int i = 0; i <= dim; ++i)
+          {
+            liquid[i] = corners[i].phi;
+            solid[i]  = corners[i].solid;
+          }
+        if (*std::min_element(liquid.begin(), liquid.end()) >= 0)
+          return;
+        add_facets(liquid, solid, 1);
+        add_facets(solid, liquid, 2);
+      }
+
+      const std::array<VertexKey, 3> &
       key(const unsigned char i) const
       {
-        return mesh.node_key[mesh.cell_nodes[cell][i]];
+        return (*simplex)[i].key;
       }
 
       /// The facets of f = 0 where g < 0; @p zero says which of the two f is.
@@ -115,17 +119,20 @@ namespace treacle
         const std::array<double, 3> weight = weights(corners, f, g);
         const double                sum    = weight[0] + weight[1] + weight[2];
 
-        Vertex         result{{{no_key, no_key, no_key, zero}}, {}};
+        Vertex         result{};
+        result.keys.fill(no_key);
+        result.keys.back() = zero;
         unsigned int   n_keys = 0;
         Point<dim>     x;
         Tensor<1, dim> v;
         for (unsigned int i = 0; i < corners.size(); ++i)
           if (weight[i] > 0)
             {
-              const LocalIndex node = mesh.cell_nodes[cell][corners[i]];
-              result.keys[n_keys++] = mesh.node_key[node];
-              x += weight[i] / sum * mesh.node_position[node];
-              v += weight[i] / sum * state.v.value(node);
+              const Corner &corner = (*simplex)[corners[i]];
+              for (const VertexKey k : corner.key)
+                result.keys[n_keys++] = k;
+              x += weight[i] / sum * corner.x;
+              v += weight[i] / sum * corner.v;
             }
         for (unsigned int d = 0; d < dim; ++d)
           {
@@ -156,10 +163,8 @@ namespace treacle
 
       static constexpr VertexKey no_key = LiquidSurface<dim>::no_key;
 
-      const State<dim>                                &state;
-      const Mesh<dim>                                 &mesh;
-      LocalIndex                                       cell = invalid;
-      std::map<std::array<VertexKey, 4>, std::int32_t> index;
+      const Simplex                                    *simplex = nullptr;
+      std::map<std::array<VertexKey, 10>, std::int32_t> index;
     };
   } // namespace
 

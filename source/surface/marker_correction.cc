@@ -4,112 +4,13 @@
 #include <treacle/fields/moved_points.h>
 #include <treacle/mesh/surface_size.h>
 #include <treacle/surface/marker_correction.h>
-#include <treacle/surface/marker_sheet.h>
+#include <treacle/surface/marker_distance.h>
 #include <treacle/surface/smooth_level_set.h>
 
 namespace treacle
 {
   namespace
   {
-    template <int dim>
-    AroundPoint<dim>
-    view(const std::vector<const NearMarker<dim> *> &markers)
-    {
-      return AroundPoint<dim>(markers.data(), markers.size());
-    }
-
-    /// The thickness below which nodes inside a film, and in a gap, are left to phi, in
-    /// leaves.
-    constexpr double thinnest_film = 0.25, thinnest_gap = 0.5;
-
-    /// phi at a node near parts so thin, or edges so sharp, that the level set says
-    /// nothing there: from the sheets of markers around. @p old is what phi was.
-    template <int dim>
-    double
-    distance_from_sheets(const Point<dim>      &x,
-                         const double           old,
-                         const AroundPoint<dim> same,
-                         const AroundPoint<dim> opposed,
-                         const double           h)
-    {
-      const MarkerSheet<dim> first(x, same, h);
-      if (first.is_beside)
-        return old;
-      if (opposed.size() == 0)
-        return first.distance;
-      const MarkerSheet<dim> second(x, opposed, h);
-      if (second.is_beside)
-        return old;
-      // of liquid between two sheets; negative: of air. The sum is the same on either
-      // side of both, so it tells a film from a gap. Sheets that come closer than
-      // markers are exact may have crossed: to trust them would let films grow. But they
-      // become thinner: a thread that falls from a ceiling would pour for ever
-      const double thickness = -(first.distance + second.distance);
-      if (thickness <= 0)
-        return thickness > -thinnest_gap * h ? old : std::min(first.distance, second.distance);
-      const double of_film = std::max(first.distance, second.distance);
-      return thickness < thinnest_film * h && first.distance <= 0 ? std::max(old, of_film) : of_film;
-    }
-
-    /// Cosine of the angle between the sides of thin parts and gaps, at most.
-    constexpr double facing_away = -0.3;
-
-    /// The markers around a point of one side of a thin part or corner, and of the other.
-    template <int dim>
-    struct Sides
-    {
-      static constexpr double beside = 0.05; ///< cosine; faces at right angles are not to count by roundoff
-
-      std::vector<const NearMarker<dim> *> same, opposed;
-      bool                                 is_smooth; ///< has phi a value at all of the same side
-      double                               sum, residual; ///< of weights, and by these of phi
-
-      void
-      find(const Point<dim> &x, const AroundPoint<dim> near, const Tensor<1, dim> &facing, const double h)
-      {
-        same.clear();
-        opposed.clear();
-        is_smooth = true;
-        sum = residual = 0;
-        for (const NearMarker<dim> *m : near)
-          {
-            const double along = m->marker.normal * facing;
-            if (along < facing_away)
-              opposed.push_back(m);
-            if (along <= beside)
-              continue;
-            same.push_back(m);
-            const double w = MarkerSheet<dim>::weight((x - m->marker.position).norm_square(), h);
-            is_smooth      = is_smooth && !std::isnan(m->value);
-            sum += w;
-            residual += w * m->value;
-          }
-      }
-    };
-
-    /// phi at a point from the markers around it, if any; those on the far side of a thin part or of a corner do not
-    /// count. Where phi is smooth it has only to become zero at them, if @p phi_is_known there.
-    template <int dim>
-    double
-    corrected(const Point<dim>      &x,
-              const double           old,
-              const AroundPoint<dim> near,
-              const Marker<dim>     &nearest,
-              const double           h,
-              const bool             phi_is_known)
-    {
-      static thread_local Sides<dim> sides;
-      sides.find(x, near, nearest.normal, h);
-      if (sides.sum == 0)
-        return old;
-      const double wanted =
-        phi_is_known && sides.opposed.empty() && sides.is_smooth ?
-          old - sides.residual / sides.sum :
-          distance_from_sheets<dim>(x, old, view<dim>(sides.same), view<dim>(sides.opposed), h);
-      // a lone marker far away must not have its way with a node
-      return old + std::min(sides.sum, 1.) * (wanted - old);
-    }
-
     /// May a surface cut an edge with these distances at its ends, half of which is @p half (m) long? Elsewhere errors of phi, as
     /// between the sides of a sheet, are no error of its volume.
     bool
@@ -138,7 +39,6 @@ namespace treacle
   const typename MarkerCorrection<dim>::AroundNode &
   MarkerCorrection<dim>::around(const LocalIndex node, const double size)
   {
-    constexpr double alike = 0.45; // cosine; 0.5 is that of the chamfers of a box at its corners
     AroundNode      &result = of_node[node];
     if (result.begin != invalid)
       return result;
@@ -184,7 +84,7 @@ namespace treacle
 
   template <int dim>
   std::optional<double>
-  MarkerCorrection<dim>::in_middle(const Vector &phi, const LocalIndex node, const LocalIndex other, const double size)
+  MarkerCorrection<dim>::in_middle(const Vector &phi, const LocalIndex node, const LocalIndex other, const double size) const
   {
     const double         a = phi.local_element(node), b = phi.local_element(other);
     const Tensor<1, dim> half = 0.5 * (mesh.node_position[other] - mesh.node_position[node]);
@@ -207,7 +107,6 @@ namespace treacle
   {
     const Vector              &phi            = state.phi;
     const std::vector<double> &solid_distance = data.solid_distance(state.time);
-    constexpr double          deep = 1.5; // leaves
     std::vector<ThinNode>     result;
     std::vector<unsigned int> number(mesh.n_owned_nodes(), invalid); // in the result, of nodes
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)

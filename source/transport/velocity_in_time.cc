@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/mesh/tracer.h>
 #include <treacle/transport/velocity_in_time.h>
 
 namespace treacle

@@ -9,17 +9,18 @@
 namespace treacle
 {
   /// The surface of the liquid as it is written: that of { phi < 0 } outside solids,
-  /// with phi and the solid distance P1 in a cell. It is closed along solids and open on
+  /// with phi and the solid distance P1 in a cell; about thin parts, edges and creases P1 in parts of cells, divided in the middles of edges
+  /// where markers know phi. It is closed along solids and open on
   /// the box; area_vector() of a facet points out of the liquid.
   template <int dim>
   struct LiquidSurface
   {
     struct Vertex
     {
-      /// Of the nodes that the vertex lies between, in ascending order: two, or three
-      /// where the surface meets a solid. The rest is no_key. The last entry says
-      /// what vanishes there: 1 phi, 2 the solid distance, 3 both.
-      std::array<VertexKey, 4> keys;
+      /// Of the corners that the vertex lies between, in ascending order: two, or three
+      /// where the surface meets a solid. Of each the keys of the nodes that it is between, and how many quarters of the way;
+      /// of a node twice, and 0. The rest is no_key. The last entry says what vanishes there: 1 phi, 2 the solid distance, 3 both.
+      std::array<VertexKey, 10> keys;
       std::array<float, 6>     values; ///< position, velocity; z = 0 in 2D
     };
 

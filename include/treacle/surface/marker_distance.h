@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_surface_marker_distance_h
+#define treacle_surface_marker_distance_h
+
+#include <treacle/surface/marker_sheet.h>
+
+#include <optional>
+
+namespace treacle
+{
+  /// Cosine of the angle between the sides of thin parts and gaps, at most, and between normals of what is smooth, at least; 0.5 is
+  /// that of the chamfers of a box at its corners.
+  constexpr double facing_away = -0.3, alike = 0.45;
+
+  /// Leaves, at most, that nodes of thin parts are from the surface.
+  constexpr double deep = 1.5;
+
+  template <int dim>
+  AroundPoint<dim>
+  view(const std::vector<const NearMarker<dim> *> &markers)
+  {
+    return AroundPoint<dim>(markers.data(), markers.size());
+  }
+
+  /// phi at a point from the markers @p near it, if any, where leaves have a size of @p h (m), and it was @p old; those on the far
+  /// side of a thin part or of a corner from the @p nearest do not
+  /// count. Where phi is smooth it has only to become zero at them, if @p phi_is_known there: their values.
+  template <int dim>
+  double
+  corrected(const Point<dim>      &x,
+            const double           old,
+            const AroundPoint<dim> near,
+            const Marker<dim>     &nearest,
+            const double           h,
+            const bool             phi_is_known);
+
+  /// The same in a film, liquid between two sheets of markers; none if the point lies in none.
+  template <int dim>
+  std::optional<double>
+  corrected_in_film(const Point<dim>      &x,
+                    const double           old,
+                    const AroundPoint<dim> near,
+                    const Marker<dim>     &nearest,
+                    const double           h);
+} // namespace treacle
+
+#endif
