@@ -103,12 +103,13 @@ namespace treacle
   }
 
   template <int dim>
-  std::vector<double>
-  Advection<dim>::level_set(const std::vector<Point<dim>> &x) const
+  typename Advection<dim>::Feet
+  Advection<dim>::feet(const std::vector<Point<dim>> &x) const
   {
     Guesses guesses;
-    const auto from = Tracer<dim>(*old.mesh).trace(x, velocity.surface, -dt, guesses);
-    return surface.level_set.values(from, guesses);
+    Feet    result{Tracer<dim>(*old.mesh).trace(x, velocity.surface, -dt, guesses), {}};
+    result.phi = surface.level_set.values(result.from, guesses);
+    return result;
   }
 
   template <int dim>

@@ -211,7 +211,7 @@ namespace treacle
     const Sizing<dim>            sizing(prm, scene);
     const OctreeGrowth<dim>      growth(
       mesh.communicator(), prm, sizing, scene, time, [&](const std::vector<Point<dim>> &x) {
-        std::vector<double> phi = advection.level_set(x);
+        std::vector<double> phi = advection.feet(x).phi;
         for (unsigned int i = 0; i < x.size(); ++i)
           phi[i] = std::min(phi[i], scene.emitter_distance(x[i], time));
         return phi;

@@ -119,6 +119,48 @@ namespace treacle
       throw_first(state.mesh->communicator(), error);
       return Utilities::MPI::sum(flux, state.mesh->communicator());
     }
+
+    /// Does a way to a point at a @p distance from solids come through one, or in one along its normal?
+    template <int dim>
+    bool
+    leads_through_solid(const Scene<dim> &scene,
+                        const Point<dim> &from,
+                        const Point<dim> &to,
+                        const double      distance,
+                        const double      time,
+                        const double      h)
+    {
+      const Tensor<1, dim> way = to - from;
+      if (distance > way.norm() || way.norm() < 0.1 * h)
+        return false;
+      if (distance <= 0)
+        return std::abs(scene.solid_distance(from, time) - distance) > 0.1 * h;
+      bool is_through = false;
+      for (const double part : {0., 0.25, 0.5, 0.75})
+        is_through = is_through || scene.solid_distance(from + part * way, time) < -0.25 * h;
+      return is_through;
+    }
+
+    /// phi from where the surface comes from; not through a solid: what is behind one has no part in it. Collective.
+    template <int dim>
+    void
+    move_level_set(State<dim> &state, const MeshData<dim> &data, const Advection<dim> &advection)
+    {
+      const Mesh<dim>              &mesh           = *state.mesh;
+      const std::vector<double>    &solid_distance = data.solid_distance(state.time);
+      const std::vector<Point<dim>> x(mesh.node_position.begin(),
+                                      mesh.node_position.begin() + mesh.n_owned_nodes());
+      const auto                    feet = advection.feet(x);
+      std::string                   error;
+      keep_error(error, [&] {
+        for (LocalIndex node = 0; node < x.size(); ++node)
+          if (!leads_through_solid(
+                data.scene, feet.from[node], x[node], solid_distance[node], state.time, mesh.finest_size()))
+            state.phi.local_element(node) = feet.phi[node];
+      });
+      throw_first(mesh.communicator(), error);
+      state.phi.update_ghost_values();
+    }
   } // namespace
 
   template <int dim>
@@ -139,11 +181,7 @@ namespace treacle
                                    *pushed.surface,
                                    BackwardDifference(dt, *pushed.state),
                                    false);
-    const std::vector<double> phi = advection.level_set(
-      {state.mesh->node_position.begin(),
-       state.mesh->node_position.begin() + state.mesh->n_owned_nodes()});
-    std::copy(phi.begin(), phi.end(), state.phi.begin());
-    state.phi.update_ghost_values();
+    move_level_set(state, *liquid.mesh_data, advection);
     state.markers = to_owners(*state.mesh, advection.move_markers());
     liquid.surface = dt * fastest_crossing(*pushed.domain, pushed.state->v) > far ?
                        tracking.advance(state,

@@ -5,7 +5,7 @@
 // them comes out again in the same step, and the energy does not rise. Water that splashes in steps of six
 // leaves, under an emitter, keeps its volume. A drop falls into a pool, 1.2 leaves a step, a block goes into it, 2.6 leaves a step, and a stream is poured into one: what air they enclose
 // or draw in does not swallow liquid. A stiff disc that drifts into a wall does not bounce off, and a ring that falls by
-// more than its thickness in a step does not go through a floor. A column without viscosity between walls that slip breaks down, and runs up the wall as a
+// more than its thickness in a step does not go through a floor. What a plate of 1.6 leaves pushes out does not come out on its other side. A column without viscosity between walls that slip breaks down, and runs up the wall as a
 // jet of two leaves, 2.7 leaves a step, without a gain of energy.
 
 #include "../run_scene.h"
@@ -209,6 +209,26 @@ namespace
           << (drift < 0.01 ? "less than 1 %" : "TOO MUCH, " + std::to_string(drift)) << std::endl;
   }
 
+  /// A block lands flat: the way out is long, and led through the plate.
+  void
+  land_on_plate(const MPI_Comm &comm)
+  {
+    const auto rows = run_scene<2>(comm,
+                                   "set End time = 0.2\nset Frame interval = 0.04\nset Maximum time step = 0.04\n"
+                                   "subsection Mesh\nset Surface level = 5\nend\n"
+                                   "subsection Material\nset Viscosity = 50\nend\n"
+                                   "subsection Liquid 1\nset Shape = box\nset Lower corner = 0.3, 0.463\n"
+                                   "set Upper corner = 0.7, 0.65\nset Velocity = 0; -0.3\nend\n"
+                                   "subsection Solid 1\nset Shape = box\nset Lower corner = 0.1, 0.4\n"
+                                   "set Upper corner = 0.9, 0.45\nend\n",
+                                   1);
+    double lowest = 1;
+    for (const Row &row : rows)
+      lowest = std::min(lowest, row.at("Liquid minimum y (m)"));
+    out() << "2D, flat on a plate: " << (lowest > 0.4 ? "stays above it" : "COMES THROUGH, " + std::to_string(lowest))
+          << std::endl;
+  }
+
   template <int dim>
   void
   check(const MPI_Comm &comm)
@@ -258,6 +278,7 @@ start(const int, char **)
       }
     drift_into_wall(comm);
     go_through(comm);
+    land_on_plate(comm);
   });
 }
 

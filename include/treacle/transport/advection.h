@@ -93,9 +93,15 @@ namespace treacle
       return moved_material<dim>(old, velocity.surface, dt);
     }
 
-    /// phi at points of the new time.
-    std::vector<double>
-    level_set(const std::vector<Point<dim>> &x) const;
+    /// Where what the surface's velocity brings to points of the new time was, and phi there.
+    struct Feet
+    {
+      std::vector<Point<dim>> from;
+      std::vector<double>     phi;
+    };
+
+    Feet
+    feet(const std::vector<Point<dim>> &x) const;
 
   private:
     /// What is known at the nodes of the old mesh at those of another.
