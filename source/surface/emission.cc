@@ -246,9 +246,8 @@ namespace treacle
       std::string error;
       keep_error(error, [&] { std::for_each(state.markers.begin(), state.markers.end(), settle); });
       throw_first(state.mesh->communicator(), error);
-      const auto in_mesh = state.mesh->locator().clamped(positions(on_emitter));
-      for (unsigned int k = 0; k < on_emitter.size(); ++k)
-        kept.push_back({in_mesh[k], on_emitter[k].normal});
+      clamp(*state.mesh, on_emitter);
+      kept.insert(kept.end(), on_emitter.begin(), on_emitter.end());
       state.markers = std::move(kept);
     }
   } // namespace

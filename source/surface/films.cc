@@ -18,7 +18,7 @@ namespace treacle
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
         double &value = phi.local_element(node);
-        if (std::abs(value) > deep * largest_surface_size(mesh))
+        if (std::abs(value) > ThinPart::deep * largest_surface_size(mesh))
           continue;
         if (const auto in_film = phi_in_film(mesh.node_position[node], value, surface_size_at_node(mesh, node)))
           {

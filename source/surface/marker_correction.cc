@@ -39,6 +39,7 @@ namespace treacle
   const typename MarkerCorrection<dim>::AroundNode &
   MarkerCorrection<dim>::around(const LocalIndex node, const double size)
   {
+    constexpr double alike = 0.45; // cosine; 0.5 is that of the chamfers of a box at its corners
     AroundNode      &result = of_node[node];
     if (result.begin != invalid)
       return result;
@@ -54,7 +55,7 @@ namespace treacle
           {
             const double along = m->marker.normal * first.normal;
             result.is_thin     = result.is_thin || along < alike;
-            result.has_sides   = result.has_sides || along < facing_away;
+            result.has_sides   = result.has_sides || along < ThinPart::facing_away;
           }
       }
     return result;
@@ -84,7 +85,7 @@ namespace treacle
 
   template <int dim>
   std::optional<double>
-  MarkerCorrection<dim>::in_middle(const Vector &phi, const LocalIndex node, const LocalIndex other, const double size) const
+  MarkerCorrection<dim>::in_middle(const Vector &phi, const LocalIndex node, const LocalIndex other, const double size)
   {
     const double         a = phi.local_element(node), b = phi.local_element(other);
     const Tensor<1, dim> half = 0.5 * (mesh.node_position[other] - mesh.node_position[node]);
@@ -112,10 +113,10 @@ namespace treacle
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
         const double distance = std::abs(phi.local_element(node));
-        if (distance > deep * mesh.surface_size())
+        if (distance > ThinPart::deep * mesh.surface_size())
           continue;
         const double h = surface_size_at_node(mesh, node);
-        if (distance > deep * h || !around(node, h).is_thin)
+        if (distance > ThinPart::deep * h || !around(node, h).is_thin)
           continue;
         // gaps are to close, sheets to stay; into solids the surface goes on as it comes
         const bool may_rise = !around(node, h).has_sides && solid_distance[node] > 2 * h;

@@ -76,7 +76,7 @@ namespace treacle
         for (const NearMarker<dim> *m : near)
           {
             const double along = m->marker.normal * facing;
-            if (along < facing_away)
+            if (along < ThinPart::facing_away)
               opposed.push_back(m);
             if (along <= beside)
               continue;

@@ -164,7 +164,7 @@ namespace treacle
             if (settles({near.data(), near.size()}, h, seed))
               kept.push_back(seed);
           }
-        clamp(kept);
+        clamp(mesh, kept);
         seeds = to_owners(mesh, kept);
         if (scene.has_solids())
           seeds.erase(std::remove_if(seeds.begin(),
@@ -215,7 +215,7 @@ namespace treacle
                   seeds[k].position -= samples[k].value * g / g.norm_square();
                   seeds[k].normal = g / g.norm();
                 }
-            clamp(seeds);
+            clamp(mesh, seeds);
           }
       }
 
@@ -234,7 +234,7 @@ namespace treacle
               project_to(bodies, seeds[k]);
         });
         throw_first(mesh.communicator(), error);
-        clamp(seeds);
+        clamp(mesh, seeds);
       }
 
       void
@@ -244,14 +244,6 @@ namespace treacle
         const Marker<dim> on = marker_on(bodies, seed.position, 1e-3 * h);
         if (on.position.distance(seed.position) < 0.5 * h)
           seed = on;
-      }
-
-      void
-      clamp(std::vector<Marker<dim>> &seeds) const
-      {
-        const auto moved = mesh.locator().clamped(positions(seeds));
-        for (unsigned int k = 0; k < seeds.size(); ++k)
-          seeds[k].position = moved[k];
       }
 
       State<dim>                 &state;

@@ -20,6 +20,16 @@ namespace treacle
     return x;
   }
 
+  /// Moves them into the mesh. Collective.
+  template <int dim, typename Item>
+  void
+  clamp(const Mesh<dim> &mesh, std::vector<Item> &items)
+  {
+    const auto inside = mesh.locator().clamped(positions(items));
+    for (unsigned int k = 0; k < items.size(); ++k)
+      items[k].position = inside[k];
+  }
+
   /// Each marker or material point on the rank that owns the cell it lies in, of a lattice the leaf.
   /// Collective.
   template <int dim, template <int> class Item>

@@ -9,9 +9,8 @@
 namespace treacle
 {
   /// The surface of the liquid as it is written: that of { phi < 0 } outside solids,
-  /// with phi and the solid distance P1 in a cell; about thin parts, edges and creases P1 in parts of cells, divided in the middles of edges
-  /// where markers know phi. It is closed along solids and open on
-  /// the box; area_vector() of a facet points out of the liquid.
+  /// with phi and the solid distance P1 in a cell, near films in parts of cells (CellParts).
+  /// It is closed along solids and open on the box; area_vector() of a facet points out of the liquid.
   template <int dim>
   struct LiquidSurface
   {

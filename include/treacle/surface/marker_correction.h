@@ -87,7 +87,7 @@ namespace treacle
     /// The distance in the middle of an edge, where leaves have a @p size; none if the surface does not cut it, or markers do not
     /// know the middle.
     std::optional<double>
-    in_middle(const Vector &phi, const LocalIndex node, const LocalIndex other, const double size) const;
+    in_middle(const Vector &phi, const LocalIndex node, const LocalIndex other, const double size);
 
     std::vector<ThinNode>
     thin_nodes(const State<dim> &state, const MeshData<dim> &data);

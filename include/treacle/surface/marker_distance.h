@@ -10,12 +10,11 @@
 
 namespace treacle
 {
-  /// Cosine of the angle between the sides of thin parts and gaps, at most, and between normals of what is smooth, at least; 0.5 is
-  /// that of the chamfers of a box at its corners.
-  constexpr double facing_away = -0.3, alike = 0.45;
-
-  /// Leaves, at most, that nodes of thin parts are from the surface.
-  constexpr double deep = 1.5;
+  struct ThinPart
+  {
+    static constexpr double facing_away = -0.3; ///< cosine of the angle between its sides, or a gap's, at most
+    static constexpr double deep        = 1.5;  ///< leaves, at most, that its nodes are from the surface
+  };
 
   template <int dim>
   AroundPoint<dim>
