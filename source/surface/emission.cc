@@ -89,7 +89,9 @@ namespace treacle
           return {std::min(old, distance), distance, distance};
         const Point<dim> from  = x - dt * scene.emitter_velocity(x, time);
         const double     depth = depth_beyond(from, scene, time);
-        const double     before = std::max(std::min(old, scene.emitter_distance(from, earlier)), depth);
+        // what flowed on from there has sharp edges here; what phi shows of it bulges beside them for their volume
+        constexpr double bulge  = 0.1; // leaves
+        const double     before = std::max(std::min(old + bulge * h, scene.emitter_distance(from, earlier)), depth);
         const bool       is_skin =
           depth > 0 && old > -h && scene.emitter_distance(in_box(from, scene), time) > 0;
         return {std::min(is_skin ? std::max(old, depth) : old, distance),

@@ -3,6 +3,7 @@
 
 #include <treacle/fields/moved_points.h>
 #include <treacle/mesh/surface_size.h>
+#include <treacle/surface/chords.h>
 #include <treacle/surface/marker_correction.h>
 #include <treacle/surface/marker_distance.h>
 #include <treacle/surface/smooth_level_set.h>
@@ -54,8 +55,10 @@ namespace treacle
         for (const NearMarker<dim> *m : about)
           {
             const double along = m->marker.normal * first.normal;
-            result.is_thin     = result.is_thin || along < alike;
-            result.has_sides   = result.has_sides || along < ThinPart::facing_away;
+            if (along > ThinPart::beside)
+              result.weight += MarkerSheet<dim>::weight((x - m->marker.position).norm_square(), size);
+            result.is_thin   = result.is_thin || along < alike;
+            result.has_sides = result.has_sides || along < ThinPart::facing_away;
           }
       }
     return result;
@@ -163,6 +166,27 @@ namespace treacle
           }
         state.phi.update_ghost_values();
       }
+  }
+
+  template <int dim>
+  void
+  MarkerCorrection<dim>::fill_chords(State<dim> &state, const MeshData<dim> &data, const SmoothLevelSet<dim> &level_set)
+  {
+    constexpr double           deep = 1, tolerance = 0.1; // leaves: the nodes of cells that the surface cuts
+    const std::vector<double>  height = heights_above_chords(mesh, state.phi, level_set.gradients(), deep);
+    const std::vector<double> &solid_distance = data.solid_distance(state.time);
+    for (LocalIndex node = 0; node < height.size(); ++node)
+      {
+        if (height[node] == 0)
+          continue;
+        const double      h     = surface_size_at_node(mesh, node);
+        const AroundNode &about = around(node, h);
+        // at kinks the mean gradient is shorter than 1
+        const double smooth = std::clamp(2 - std::abs(level_set.gradients().value(node).norm() - 1) / tolerance, 0., 1.);
+        if (!about.is_thin && (height[node] > 0 || solid_distance[node] > 2 * h))
+          state.phi.local_element(node) -= smooth * std::min(about.weight, 1.) * height[node];
+      }
+    state.phi.update_ghost_values();
   }
 
   template class MarkerCorrection<2>;

@@ -60,8 +60,6 @@ namespace treacle
     template <int dim>
     struct Sides
     {
-      static constexpr double beside = 0.05; ///< cosine; faces at right angles are not to count by roundoff
-
       std::vector<const NearMarker<dim> *> same, opposed;
       bool                                 is_smooth; ///< has phi a value at all of the same side
       double                               sum, residual; ///< of weights, and by these of phi
@@ -78,7 +76,7 @@ namespace treacle
             const double along = m->marker.normal * facing;
             if (along < ThinPart::facing_away)
               opposed.push_back(m);
-            if (along <= beside)
+            if (along <= ThinPart::beside)
               continue;
             same.push_back(m);
             const double w = MarkerSheet<dim>::weight((x - m->marker.position).norm_square(), h);

@@ -71,7 +71,8 @@ namespace treacle
     MarkerCorrection<dim>(state).fill_thin_parts(state, data);
     surface = surface_of(state);
     reseed(state, data.scene, *surface);
-    return surface;
+    MarkerCorrection<dim>(state).fill_chords(state, data, surface->level_set);
+    return surface_of(state);
   }
 
   template <int dim>
@@ -81,35 +82,29 @@ namespace treacle
                                        const double         dt,
                                        const double         reach) const
   {
-    if (has_markers())
+    if (!has_markers())
       {
-        MarkerCorrection<dim> markers(state);
-        markers.apply(state);
+        state.markers.clear();
         redistance(state, reach);
-        markers.apply(state);
-        markers.fill_thin_parts(state, data);
+        close_air_pockets(state, data, dt, reach);
+        return;
       }
-    else
-      redistance(state, reach);
+    MarkerCorrection<dim> markers(state);
+    markers.apply(state);
+    redistance(state, reach);
+    markers.apply(state);
+    markers.fill_thin_parts(state, data);
     close_air_pockets(state, data, dt, reach);
+    // seeds settle on the smooth surface, where phi shows none on facets: these must be right in the mean, and only these
+    const auto smooth = surface_of(state);
+    remove_stray_markers(state, data.scene, *smooth);
+    markers.fill_chords(state, data, smooth->level_set);
+    reseed(state, data.scene, *smooth);
   }
 
   template <int dim>
   std::unique_ptr<const SurfaceGeometry<dim>>
-  SurfaceTracking<dim>::settle(State<dim>          &state,
-                               const MeshData<dim> &data,
-                               const double         volume) const
-  {
-    auto surface = shift(state, data, volume);
-    if (has_markers())
-      remove_stray_markers(state, data.scene, *surface);
-    reseed(state, data.scene, *surface);
-    return surface;
-  }
-
-  template <int dim>
-  std::unique_ptr<const SurfaceGeometry<dim>>
-  SurfaceTracking<dim>::shift(State<dim> &state, const MeshData<dim> &data, const double volume) const
+  SurfaceTracking<dim>::settle(State<dim> &state, const MeshData<dim> &data, const double volume) const
   {
     if (prm.volume_correction)
       correct_volume(state, data, volume);

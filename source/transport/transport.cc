@@ -188,7 +188,7 @@ namespace treacle
                                         *liquid.mesh_data,
                                         time_step.reach_of_distance(time_step.reach(state, *liquid.domain), *state.mesh),
                                         volume) :
-                       tracking.shift(state, *liquid.mesh_data, volume);
+                       tracking.settle(state, *liquid.mesh_data, volume);
     if (state.material)
       state.material->points = to_owners(*state.mesh, advection.move_material());
     settle_material(state, *liquid.mesh_data);

@@ -8,6 +8,7 @@
 #include <treacle/fields/state.h>
 #include <treacle/mesh/tracer.h>
 #include <treacle/surface/near_markers.h>
+#include <treacle/surface/smooth_level_set.h>
 
 #include <deal.II/base/array_view.h>
 
@@ -36,14 +37,21 @@ namespace treacle
     void
     fill_thin_parts(State<dim> &state, const MeshData<dim> &data);
 
+    /// Elsewhere too a P1 function shows chords, so that a sphere of 2 or 3.2 leaves' radius would have 94 or 97.6 % of its volume:
+    /// change phi of the same state, from which @p level_set is, about what is round so that it has its volume in the mean over the
+    /// cells around each node. As far as markers take it back when they correct phi next, lest it add up. Collective.
+    void
+    fill_chords(State<dim> &state, const MeshData<dim> &data, const SmoothLevelSet<dim> &level_set);
+
   private:
     /// Markers around an owned node, once they are found.
     struct AroundNode
     {
       unsigned int       begin = invalid, end = invalid; ///< of near
       const Marker<dim> *nearest = nullptr;
-      bool is_thin   = false; ///< do they face so differently that a thin part is near, or an edge or a crease?
-      bool has_sides = false; ///< do some face away from the nearest, or towards it?
+      double             weight    = 0;     ///< of those that face as the nearest does
+      bool               is_thin   = false; ///< do they face so differently that a thin part is near, or an edge or a crease?
+      bool               has_sides = false; ///< do some face away from the nearest, or towards it?
     };
 
     /// The distance from the markers in the middle of an edge from a node.

@@ -13,6 +13,7 @@ namespace treacle
   struct ThinPart
   {
     static constexpr double facing_away = -0.3; ///< cosine of the angle between its sides, or a gap's, at most
+    static constexpr double beside      = 0.05; ///< cosine; faces at right angles are not to count by roundoff
     static constexpr double deep        = 1.5;  ///< leaves, at most, that its nodes are from the surface
   };
 

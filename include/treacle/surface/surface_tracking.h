@@ -40,13 +40,12 @@ namespace treacle
     std::unique_ptr<const SurfaceGeometry<dim>>
     begin(State<dim> &state, const MeshData<dim> &data) const;
 
-    /// @p state has phi and markers of the new time, which correct it, and thin air that a step @p dt (s) like
-    /// this one fills becomes liquid. Distances within @p reach (m).
+    /// @p state has phi and markers of the new time, which correct it, thin air that a step @p dt (s) like
+    /// this one fills becomes liquid, and markers come where there are too few. Distances within @p reach (m).
     void
     follow_markers(State<dim> &state, const MeshData<dim> &data, const double dt, const double reach) const;
 
-    /// The surface, with volume correction moved to restore @p volume (m^dim), and with markers
-    /// where it has too few.
+    /// The surface, with volume correction moved to restore @p volume (m^dim), with its markers.
     std::unique_ptr<const SurfaceGeometry<dim>>
     settle(State<dim> &state, const MeshData<dim> &data, const double volume) const;
 
@@ -60,10 +59,6 @@ namespace treacle
       follow_markers(state, data, 0, reach);
       return settle(state, data, volume);
     }
-
-    /// As settle, without a look at the markers, which move along.
-    std::unique_ptr<const SurfaceGeometry<dim>>
-    shift(State<dim> &state, const MeshData<dim> &data, const double volume) const;
 
     /// Markers, if there are to be any, on a surface that has too few.
     void
