@@ -3,33 +3,13 @@
 
 #include <treacle/base/exchange.h>
 #include <treacle/fields/moved_points.h>
-#include <treacle/geometry/cut_simplex.h>
 #include <treacle/surface/emission.h>
+#include <treacle/surface/emitted_volume.h>
 
 namespace treacle
 {
   namespace
   {
-    /// How far a point is beyond the box or in a solid (m), negative in the open.
-    template <int dim>
-    double
-    depth_beyond(const Point<dim> &x, const Scene<dim> &scene, const double time)
-    {
-      double depth = -scene.solid_distance(x, time);
-      for (unsigned int d = 0; d < dim; ++d)
-        depth = std::max({depth, scene.lower_corner()[d] - x[d], x[d] - scene.upper_corner()[d]});
-      return depth;
-    }
-
-    template <int dim>
-    Point<dim>
-    in_box(Point<dim> x, const Scene<dim> &scene)
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        x[d] = std::min(std::max(x[d], scene.lower_corner()[d]), scene.upper_corner()[d]);
-      return x;
-    }
-
     template <int dim>
     void
     set_material(State<dim> &state, const Scene<dim> &scene, const double time)
@@ -54,138 +34,13 @@ namespace treacle
       throw_first(mesh.communicator(), error);
       material.update_ghost_values();
     }
-  } // namespace
-
-  namespace
-  {
-    /// How emitters change phi in a step, which is old at a point once what was there has moved.
-    template <int dim>
-    class Filling
-    {
-    public:
-      /// Full a time of @p dt before were the emitters that worked @p earlier; h is the finest leaf.
-      Filling(const Scene<dim> &scene, const double h, const double time, const double earlier, const double dt)
-        : scene(scene)
-        , h(h)
-        , time(time)
-        , earlier(earlier)
-        , dt(dt)
-      {}
-
-      struct Phi
-      {
-        double after;
-        double inside; ///< emitters
-        double kept;   ///< inside, what came from there or was there already
-      };
-
-      /// Paths that lead back through a wall bring none: what sticks to the ceiling beside an emitter, as a skin
-      /// of it, must not become a second one.
-      Phi
-      phi(const Point<dim> &x, const double old) const
-      {
-        const double distance = scene.emitter_distance(x, time);
-        if (distance >= 2 * h) // what flowed in is no other than what was there
-          return {std::min(old, distance), distance, distance};
-        const Point<dim> from  = x - dt * scene.emitter_velocity(x, time);
-        const double     depth = depth_beyond(from, scene, time);
-        // what flowed on from there has sharp edges here; what phi shows of it bulges beside them for their volume
-        constexpr double bulge  = 0.1; // leaves
-        const double     before = std::max(std::min(old + bulge * h, scene.emitter_distance(from, earlier)), depth);
-        const bool       is_skin =
-          depth > 0 && old > -h && scene.emitter_distance(in_box(from, scene), time) > 0;
-        return {std::min(is_skin ? std::max(old, depth) : old, distance),
-                distance,
-                std::max(distance, before)};
-      }
-
-    private:
-      const Scene<dim> &scene;
-      const double      h, time, earlier, dt;
-    };
-
-    /// What an emitter adds in a simplex. In a step it may be much thinner than a leaf, which functions that are linear between nodes show
-    /// 20 to 50 % too thick or too thin at edges and corners of the emitter: so the simplex is halved where they matter, as often as asked.
-    template <int dim>
-    class EmittedVolume
-    {
-    public:
-      explicit EmittedVolume(const Filling<dim> &filling)
-        : filling(filling)
-      {}
-
-      struct Vertex
-      {
-        Point<dim>                  x;
-        double                      old; ///< phi
-        double                      psi; ///< distance to solids
-        typename Filling<dim>::Phi  phi;
-      };
-      using Vertices = std::array<Vertex, dim + 1>;
-
-      Vertex
-      vertex(const Point<dim> &x, const double old, const double psi) const
-      {
-        return {x, old, psi, filling.phi(x, old)};
-      }
-
-      /// (m^dim)
-      double
-      operator()(const Vertices &v, const unsigned int halvings) const
-      {
-        std::array<unsigned int, 2> edge{};
-        double                      longest = 0;
-        for (unsigned int i = 0; i <= dim; ++i)
-          for (unsigned int j = 0; j < i; ++j)
-            if (const double length = v[i].x.distance(v[j].x); length > longest)
-              {
-                longest = length;
-                edge    = {{i, j}};
-              }
-        const auto is_far = [&](const Vertex &a) {
-          return std::min(std::abs(a.phi.inside), std::abs(a.phi.kept)) > longest;
-        };
-        if (halvings == 0 || std::all_of(v.begin(), v.end(), is_far))
-          return volume(v, &Filling<dim>::Phi::inside) - volume(v, &Filling<dim>::Phi::kept);
-        const auto  &[i, j] = edge;
-        const Vertex middle = vertex(v[i].x + 0.5 * (v[j].x - v[i].x),
-                                     0.5 * (v[i].old + v[j].old),
-                                     0.5 * (v[i].psi + v[j].psi));
-        double       sum    = 0;
-        for (const unsigned int k : edge)
-          {
-            Vertices half = v;
-            half[k]       = middle;
-            sum += (*this)(half, halvings - 1);
-          }
-        return sum;
-      }
-
-    private:
-      static double
-      volume(const Vertices &v, double Filling<dim>::Phi::*phi)
-      {
-        Simplex<dim>      x;
-        VertexValues<dim> values, psi;
-        for (unsigned int i = 0; i <= dim; ++i)
-          {
-            x[i]      = v[i].x;
-            values[i] = v[i].phi.*phi;
-            psi[i]    = v[i].psi;
-          }
-        return liquid_moments<dim>(x, values, psi).volume;
-      }
-
-      const Filling<dim> &filling;
-    };
 
     /// Cuts the liquid in emitters and beside them out of state.phi, and puts the emitters
     /// in. Returns the volume that flowed in (m^dim). Collective.
     template <int dim>
     double
-    fill_emitters(State<dim> &state, const MeshData<dim> &data, const Filling<dim> &filling)
+    fill_emitters(State<dim> &state, const MeshData<dim> &data, const EmitterFilling<dim> &filling)
     {
-      constexpr unsigned int halvings = 2 * dim; // of each edge about two
       const Mesh<dim>           &mesh = *state.mesh;
       const std::vector<double> &psi  = data.solid_distance(state.time);
       std::string                error;
@@ -211,7 +66,7 @@ namespace treacle
             std::transform(nodes.begin(), nodes.end(), v.begin(), [&](const LocalIndex node) {
               return vertices[node];
             });
-            keep_error(error, [&] { volume += emitted(v, halvings); });
+            keep_error(error, [&] { volume += emitted(v); });
           }
       throw_first(mesh.communicator(), error);
       filled.update_ghost_values();
@@ -264,7 +119,7 @@ namespace treacle
                  middle    = 0.5 * (start + end);
     double       volume    = 0;
     const auto   fill_with = [&](const double time, const double earlier, const double way) {
-      volume += fill_emitters(state, data, Filling<dim>(scene, h, time, earlier, way));
+      volume += fill_emitters(state, data, EmitterFilling<dim>(scene, h, time, earlier, way));
       if (state.material)
         set_material(state, scene, time);
       settle_markers(state, scene, h, time, way);

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_surface_emitted_volume_h
+#define treacle_surface_emitted_volume_h
+
+#include <treacle/surface/emitter_filling.h>
+
+namespace treacle
+{
+  /// What an emitter adds in a simplex. In a step it may be much thinner than a leaf, which functions that are linear between nodes show
+  /// 20 to 50 % too thick or too thin at edges and corners of the emitter: so the simplex is halved where they matter, along each edge about once,
+  /// and as long as that changes its part, until edges are an eighth as long.
+  template <int dim>
+  class EmittedVolume
+  {
+  public:
+    /// Refers to it.
+    explicit EmittedVolume(const EmitterFilling<dim> &filling)
+      : filling(filling)
+    {}
+
+    struct Vertex
+    {
+      Point<dim>                        x;
+      double                            old; ///< phi
+      double                            psi; ///< distance to solids
+      typename EmitterFilling<dim>::Phi phi;
+    };
+    using Vertices = std::array<Vertex, dim + 1>;
+
+    Vertex
+    vertex(const Point<dim> &x, const double old, const double psi) const
+    {
+      return {x, old, psi, filling.phi(x, old)};
+    }
+
+    /// (m^dim)
+    double
+    operator()(const Vertices &v) const
+    {
+      return after(v, dim);
+    }
+
+  private:
+    struct LongestEdge
+    {
+      unsigned int i = 0, j = 0;
+      double       length = 0; ///< (m)
+
+      explicit LongestEdge(const Vertices &v);
+    };
+
+    /// When it has been halved so often.
+    double
+    after(const Vertices &v, const unsigned int halvings) const;
+
+    /// From where anything flows in.
+    static bool
+    is_far(const Vertices &v, const LongestEdge &edge);
+
+    std::array<Vertices, 2>
+    halved(const Vertices &v, const LongestEdge &edge) const;
+
+    /// A simplex of a @p whole volume (m^dim) is halved in each direction, as often as that changes it.
+    double
+    in_rounds(const Vertices &v, const double whole, const unsigned int rounds) const;
+
+    /// As functions that are linear in it show it.
+    static double
+    volume(const Vertices &v);
+
+    const EmitterFilling<dim> &filling;
+  };
+} // namespace treacle
+
+#endif
