@@ -33,13 +33,13 @@ namespace treacle
     double
     height_in_cell(const Mesh<dim> &mesh, const LocalIndex c, const NodeVector<dim> &gradient, const NodeVector<dim> &point)
     {
-      constexpr double nearest = 0.3; // of an edge, that its gradients are apart
+      constexpr double nearest = 0.3, kink = 0.1; // of an edge, that its gradients are apart; length of the mean gradient
       const auto      &nodes   = mesh.cell_nodes[c];
       double           sum     = 0;
       Tensor<1, dim>   normal;
       for (const LocalIndex node : nodes)
-        normal += gradient.value(node);
-      if (normal.norm_square() == 0)
+        normal += gradient.value(node) / (dim + 1);
+      if (normal.norm() < kink)
         return 0;
       normal /= normal.norm();
       for (unsigned int i = 0; i <= dim; ++i)
