@@ -148,6 +148,7 @@ carry(const MPI_Comm                                  &comm,
       errors.rebuilt += mesh != state->mesh;
       auto next     = std::make_unique<State<dim>>(advection.advance(mesh, reach));
       next->markers = to_owners(*mesh, markers);
+      next->v.update_ghost_values();
       if (mesh != state->mesh)
         data = std::make_shared<const MeshData<dim>>(*mesh, scene);
       surface = tracking.advance(*next, *data, reach, volume);
