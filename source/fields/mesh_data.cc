@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/fields/gradients.h>
 #include <treacle/fields/mesh_data.h>
 
 namespace treacle
@@ -30,6 +31,21 @@ namespace treacle
       from_resting.push_back(scene.resting_solid_distance(x));
     if (!scene.has_moving_solids())
       snap_to_nodes(mesh, from_resting);
+  }
+
+  template <int dim>
+  const NodeVector<dim> &
+  MeshData<dim>::points_of_gradient() const
+  {
+    if (!gradient_points)
+      {
+        Vector half_square(mesh.nodes); // its gradient is x
+        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+          half_square.local_element(node) = 0.5 * mesh.node_position[node].square();
+        half_square.update_ghost_values();
+        gradient_points = nodal_gradient(mesh, half_square);
+      }
+    return *gradient_points;
   }
 
   template <int dim>

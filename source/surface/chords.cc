@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/fields/gradients.h>
 #include <treacle/mesh/surface_size.h>
 #include <treacle/surface/chords.h>
 
@@ -12,19 +11,6 @@ namespace treacle
     /// In leaves: a radius of a leaf, beyond which chords are what is left of a surface; and of fifty to a hundred, which noise has: small
     /// waves would swing and calm down by it, at rates up to 4 % off.
     constexpr double highest = 1. / 16, lowest = 1e-3;
-
-    /// Where the nodal gradient of a quadratic function is the true one: in the middle of the cells around each node, which is
-    /// not the node at sides of the box and beside coarser leaves. The gradient of |x|^2 / 2 is x.
-    template <int dim>
-    NodeVector<dim>
-    points_of_gradient(const Mesh<dim> &mesh)
-    {
-      Vector half_square(mesh.nodes);
-      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-        half_square.local_element(node) = 0.5 * mesh.node_position[node].square();
-      half_square.update_ghost_values();
-      return nodal_gradient(mesh, half_square);
-    }
 
     /// In the mean over a cell. For a quadratic function f with the Hessian H, the linear one less f is the sum of
     /// lambda_i lambda_j e_ij H e_ij / 2 over the edges e_ij, and lambda_i lambda_j is 1 / ((n + 1) (n + 2)) in the mean. Along its gradient a distance is
@@ -57,11 +43,12 @@ namespace treacle
 
   template <int dim>
   std::vector<double>
-  heights_above_chords(const Mesh<dim> &mesh, const Vector &phi, const NodeVector<dim> &gradient, const double deep)
+  heights_above_chords(const MeshData<dim> &data, const Vector &phi, const NodeVector<dim> &gradient, const double deep)
   {
-    const NodeVector<dim> point = points_of_gradient(mesh);
-    const double          far   = deep * largest_surface_size(mesh);
-    std::vector<double>   height(mesh.n_owned_nodes()), volume(height.size());
+    const Mesh<dim>       &mesh  = data.mesh;
+    const NodeVector<dim> &point = data.points_of_gradient();
+    const double           far   = deep * largest_surface_size(mesh);
+    std::vector<double>    height(mesh.n_owned_nodes()), volume(height.size());
     for (LocalIndex c = 0; c < mesh.cell_nodes.size(); ++c)
       {
         const VertexValues<dim> values = mesh.values(c, phi);
@@ -86,7 +73,7 @@ namespace treacle
   }
 
   template std::vector<double>
-  heights_above_chords(const Mesh<2> &, const Vector &, const NodeVector<2> &, const double);
+  heights_above_chords(const MeshData<2> &, const Vector &, const NodeVector<2> &, const double);
   template std::vector<double>
-  heights_above_chords(const Mesh<3> &, const Vector &, const NodeVector<3> &, const double);
+  heights_above_chords(const MeshData<3> &, const Vector &, const NodeVector<3> &, const double);
 } // namespace treacle

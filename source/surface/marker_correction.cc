@@ -55,10 +55,8 @@ namespace treacle
         for (const NearMarker<dim> *m : about)
           {
             const double along = m->marker.normal * first.normal;
-            if (along > ThinPart::beside)
-              result.weight += MarkerSheet<dim>::weight((x - m->marker.position).norm_square(), size);
-            result.is_thin   = result.is_thin || along < alike;
-            result.has_sides = result.has_sides || along < ThinPart::facing_away;
+            result.is_thin     = result.is_thin || along < alike;
+            result.has_sides   = result.has_sides || along < ThinPart::facing_away;
           }
       }
     return result;
@@ -173,7 +171,7 @@ namespace treacle
   MarkerCorrection<dim>::fill_chords(State<dim> &state, const MeshData<dim> &data, const SmoothLevelSet<dim> &level_set)
   {
     constexpr double           deep = 1, tolerance = 0.1; // leaves: the nodes of cells that the surface cuts
-    const std::vector<double>  height = heights_above_chords(mesh, state.phi, level_set.gradients(), deep);
+    const std::vector<double>  height = heights_above_chords(data, state.phi, level_set.gradients(), deep);
     const std::vector<double> &solid_distance = data.solid_distance(state.time);
     for (LocalIndex node = 0; node < height.size(); ++node)
       {
@@ -181,10 +179,12 @@ namespace treacle
           continue;
         const double      h     = surface_size_at_node(mesh, node);
         const AroundNode &about = around(node, h);
+        if (!about.nearest || about.is_thin || (height[node] < 0 && solid_distance[node] <= 2 * h))
+          continue;
         // at kinks the mean gradient is shorter than 1
         const double smooth = std::clamp(2 - std::abs(level_set.gradients().value(node).norm() - 1) / tolerance, 0., 1.);
-        if (!about.is_thin && (height[node] > 0 || solid_distance[node] > 2 * h))
-          state.phi.local_element(node) -= smooth * std::min(about.weight, 1.) * height[node];
+        state.phi.local_element(node) -=
+          smooth * part_corrected<dim>(mesh.node_position[node], all(about), *about.nearest, h) * height[node];
       }
     state.phi.update_ghost_values();
   }

@@ -60,6 +60,8 @@ namespace treacle
     template <int dim>
     struct Sides
     {
+      static constexpr double beside = 0.05; ///< cosine; faces at right angles are not to count by roundoff
+
       std::vector<const NearMarker<dim> *> same, opposed;
       bool                                 is_smooth; ///< has phi a value at all of the same side
       double                               sum, residual; ///< of weights, and by these of phi
@@ -76,7 +78,7 @@ namespace treacle
             const double along = m->marker.normal * facing;
             if (along < ThinPart::facing_away)
               opposed.push_back(m);
-            if (along <= ThinPart::beside)
+            if (along <= beside)
               continue;
             same.push_back(m);
             const double w = MarkerSheet<dim>::weight((x - m->marker.position).norm_square(), h);
@@ -84,6 +86,13 @@ namespace treacle
             sum += w;
             residual += w * m->value;
           }
+      }
+
+      /// A lone marker far away must not have its way with a node.
+      double
+      part_corrected() const
+      {
+        return std::min(sum, 1.);
       }
     };
   } // namespace
@@ -105,8 +114,7 @@ namespace treacle
       phi_is_known && sides.opposed.empty() && sides.is_smooth ?
         old - sides.residual / sides.sum :
         Sheets<dim>(x, view<dim>(sides.same), view<dim>(sides.opposed), h).distance(old, h);
-    // a lone marker far away must not have its way with a node
-    return old + std::min(sides.sum, 1.) * (wanted - old);
+    return old + sides.part_corrected() * (wanted - old);
   }
 
   template <int dim>
@@ -124,7 +132,16 @@ namespace treacle
     const Sheets<dim> sheets(x, view<dim>(sides.same), view<dim>(sides.opposed), h);
     if (sheets.is_beside() || sheets.thickness() <= 0)
       return {};
-    return old + std::min(sides.sum, 1.) * (sheets.distance(old, h) - old);
+    return old + sides.part_corrected() * (sheets.distance(old, h) - old);
+  }
+
+  template <int dim>
+  double
+  part_corrected(const Point<dim> &x, const AroundPoint<dim> near, const Marker<dim> &nearest, const double h)
+  {
+    static thread_local Sides<dim> sides;
+    sides.find(x, near, nearest.normal, h);
+    return sides.part_corrected();
   }
 
   template double
@@ -132,7 +149,11 @@ namespace treacle
   template std::optional<double>
   corrected_in_film(const Point<2> &, const double, const AroundPoint<2>, const Marker<2> &, const double);
   template double
+  part_corrected(const Point<2> &, const AroundPoint<2>, const Marker<2> &, const double);
+  template double
   corrected(const Point<3> &, const double, const AroundPoint<3>, const Marker<3> &, const double, const bool);
   template std::optional<double>
   corrected_in_film(const Point<3> &, const double, const AroundPoint<3>, const Marker<3> &, const double);
+  template double
+  part_corrected(const Point<3> &, const AroundPoint<3>, const Marker<3> &, const double);
 } // namespace treacle

@@ -260,7 +260,7 @@ start(const int argc, char **argv)
       check<3>(comm, "translation", 4);
       check_thin<2>(comm, "sheet1", 6, 0.03, Shown{0.95, 0.4 / 64});
       check_thin<2>(comm, "vortex", 5, 0.15);
-      check_thin<2>(comm, "notched", 5, 0.01);
+      check_thin<2>(comm, "notched", 5, 0.005);
       check_thin<2>(comm, "drop", 4, 0.03, Shown{0.94, round_volume<2>(1. / 16, 0)});
       check_thin<3>(comm, "drop", 4, 0.01, Shown{0.84, round_volume<3>(1. / 16, 0)});
       check_thin<2>(comm, "drop", 5, 0.005, Shown{0.99, round_volume<2>(1. / 16, 0)});

@@ -9,6 +9,8 @@
 
 #include <deal.II/base/array_view.h>
 
+#include <optional>
+
 namespace treacle
 {
   /// What a mesh and the scene have in common, computed once for each mesh: neighbours of
@@ -45,6 +47,11 @@ namespace treacle
     const std::vector<double> &
     solid_distance(const double time) const;
 
+    /// Where the nodal gradient (fields/gradients.h) of a quadratic function is the true one: in the middle of the cells around each
+    /// node, which is not the node at sides of the box and beside coarser leaves. Computed when first asked for, then collective.
+    const NodeVector<dim> &
+    points_of_gradient() const;
+
   private:
     void
     find_neighbours();
@@ -54,6 +61,7 @@ namespace treacle
     std::vector<double>       from_resting; ///< solids
     mutable std::vector<double> from_all;
     mutable double              last_time;
+    mutable std::optional<NodeVector<dim>> gradient_points;
   };
 
   /// The mean of @p value (other node) over the neighbours of an owned node that

@@ -4,7 +4,7 @@
 #ifndef treacle_surface_chords_h
 #define treacle_surface_chords_h
 
-#include <treacle/mesh/mesh.h>
+#include <treacle/fields/mesh_data.h>
 
 namespace treacle
 {
@@ -14,7 +14,7 @@ namespace treacle
   /// Collective.
   template <int dim>
   std::vector<double>
-  heights_above_chords(const Mesh<dim> &mesh, const Vector &phi, const NodeVector<dim> &gradient, const double deep);
+  heights_above_chords(const MeshData<dim> &data, const Vector &phi, const NodeVector<dim> &gradient, const double deep);
 } // namespace treacle
 
 #endif

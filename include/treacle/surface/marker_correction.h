@@ -49,9 +49,8 @@ namespace treacle
     {
       unsigned int       begin = invalid, end = invalid; ///< of near
       const Marker<dim> *nearest = nullptr;
-      double             weight    = 0;     ///< of those that face as the nearest does
-      bool               is_thin   = false; ///< do they face so differently that a thin part is near, or an edge or a crease?
-      bool               has_sides = false; ///< do some face away from the nearest, or towards it?
+      bool is_thin   = false; ///< do they face so differently that a thin part is near, or an edge or a crease?
+      bool has_sides = false; ///< do some face away from the nearest, or towards it?
     };
 
     /// The distance from the markers in the middle of an edge from a node.

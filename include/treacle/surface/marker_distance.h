@@ -13,7 +13,6 @@ namespace treacle
   struct ThinPart
   {
     static constexpr double facing_away = -0.3; ///< cosine of the angle between its sides, or a gap's, at most
-    static constexpr double beside      = 0.05; ///< cosine; faces at right angles are not to count by roundoff
     static constexpr double deep        = 1.5;  ///< leaves, at most, that its nodes are from the surface
   };
 
@@ -44,6 +43,11 @@ namespace treacle
                     const AroundPoint<dim> near,
                     const Marker<dim>     &nearest,
                     const double           h);
+
+  /// The part of the way to what the markers say that corrected() goes.
+  template <int dim>
+  double
+  part_corrected(const Point<dim> &x, const AroundPoint<dim> near, const Marker<dim> &nearest, const double h);
 } // namespace treacle
 
 #endif
