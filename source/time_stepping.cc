@@ -114,7 +114,7 @@ namespace treacle
     const double                      old_volume = volume;
     const double                      old_drift  = liquid.domain->total_volume() - volume;
     const double                      crossing   = fastest_crossing(*liquid.domain, old->v);
-    const EnergyBudget<dim>           budget(*old, *liquid.domain);
+    const EnergyBudget<dim>           budget(*old, *liquid.domain, size.dt);
     double                            past_drift = std::numeric_limits<double>::max(), past_excess = past_drift;
     for (double dt = size.dt;; dt = 0.5 * info.dt)
       {
@@ -286,7 +286,7 @@ namespace treacle
       return;
     extend_velocity(pushed);
     timing.measured("surface", [&] {
-      movement.displace(liquid, pushed, moved.missing, volume);
+      movement.displace(liquid, pushed, moved, volume);
     });
     find(liquid);
   }

@@ -14,13 +14,14 @@ namespace treacle
   } // namespace
 
   template <int dim>
-  EnergyBudget<dim>::EnergyBudget(const State<dim> &state, const LiquidDomain<dim> &domain)
-    : before(sums(state, domain))
+  EnergyBudget<dim>::EnergyBudget(const State<dim> &state, const LiquidDomain<dim> &domain, const double dt)
+    : times{{state.time, state.time + dt}}
+    , before(sums(state, domain))
   {}
 
   template <int dim>
   typename EnergyBudget<dim>::Sums
-  EnergyBudget<dim>::sums(const State<dim> &state, const LiquidDomain<dim> &domain)
+  EnergyBudget<dim>::sums(const State<dim> &state, const LiquidDomain<dim> &domain) const
   {
     const Mesh<dim>     &mesh = domain.mesh;
     const Tensor<1, dim> box  = domain.scene.upper_corner() - domain.scene.lower_corner();
@@ -37,6 +38,13 @@ namespace treacle
             sums.potential += mass * std::abs(g[d]) * box[d];
           sums.mass += mass;
         });
+    for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+      if (const double volume = domain.liquid_volume[c]; volume > 0)
+        keep_error(error, [&] {
+          const Point<dim> &x = domain.liquid_centre[c];
+          for (unsigned int k = 0; k < 2; ++k)
+            sums.height[k] -= domain.density[c] * volume * (domain.scene.gravity(x, times[k]) * (x - domain.scene.lower_corner()));
+        });
     throw_first(mesh.communicator(), error);
     MPI_Allreduce(
       MPI_IN_PLACE, &sums, sizeof sums / sizeof(double), MPI_DOUBLE, MPI_SUM, mesh.communicator());
@@ -45,20 +53,27 @@ namespace treacle
 
   namespace
   {
-    /// Of a volume of what comes from an emitter, at most (J/m^dim). Collective.
+    /// Of a volume of what comes from an emitter, kinetic energy and with the potential one, at most (J/m^dim). Collective.
     template <int dim>
-    double
-    emitted_energy(const LiquidDomain<dim> &domain)
+    std::array<double, 2>
+    emitted_energy(const LiquidDomain<dim> &domain, const double time)
     {
-      double speed = 0, density = 0;
+      double      speed = 0, density = 0, height = 0; // of the liquid where it is highest (m^2/s^2): the emitter may have stopped
+      std::string error;
       for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
         if (domain.is_emitter_node[node])
           speed = std::max(speed, domain.prescribed[node].norm());
       for (LocalIndex c = 0; c < domain.mesh.n_owned_cells(); ++c)
         if (domain.is_active_cell[c])
-          density = std::max(density, domain.density[c]);
-      const auto most = largest(domain.mesh.communicator(), std::array<double, 2>{{speed, density}});
-      return 0.5 * most[1] * most[0] * most[0];
+          keep_error(error, [&] {
+            const Point<dim> &x = domain.liquid_centre[c];
+            density             = std::max(density, domain.density[c]);
+            height = std::max(height, -(domain.scene.gravity(x, time) * (x - domain.scene.lower_corner())));
+          });
+      throw_first(domain.mesh.communicator(), error);
+      const auto   most    = largest(domain.mesh.communicator(), std::array<double, 3>{{speed, density, height}});
+      const double kinetic = 0.5 * most[1] * most[0] * most[0];
+      return {{kinetic, kinetic + most[1] * most[2]}};
     }
   } // namespace
 
@@ -70,11 +85,14 @@ namespace treacle
   {
     const Sums   after   = sums(state, domain);
     const double gravity = input.dt * std::max({before.power, after.power, 0.});
-    const double others  = input.dt * std::max(input.power, 0.) +
-                          (input.emitted > 0 ? input.emitted * emitted_energy(domain) : 0.);
+    const auto   emitted = input.emitted > 0 ? emitted_energy(domain, state.time) : std::array<double, 2>{{0, 0}};
+    const double solids  = input.dt * std::max(input.power, 0.), others = solids + input.emitted * emitted[0];
     const double crawl   = least_distance * domain.mesh.finest_size() / input.dt;
     const double scale   = before.kinetic + before.potential + others + 0.5 * after.mass * crawl * crawl;
-    const double more    = after.kinetic - before.kinetic - gravity - others;
+    const double kinetic = after.kinetic - before.kinetic;
+    // gravity that changes gives and takes
+    const double rise = std::min(after.height[0] - before.height[0], after.height[1] - before.height[1]);
+    const double more = std::max(kinetic - gravity - others, kinetic + rise - solids - input.emitted * emitted[1]);
     return more > 0 ? more / scale : 0.;
   }
 

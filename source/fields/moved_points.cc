@@ -5,6 +5,7 @@
 #include <treacle/fields/marker.h>
 #include <treacle/fields/material_point.h>
 #include <treacle/fields/moved_points.h>
+#include <treacle/fields/parcel.h>
 
 namespace treacle
 {
@@ -31,7 +32,8 @@ namespace treacle
   template std::vector<Marker<dim>> to_owners(const Mesh<dim> &,                \
                                               const std::vector<Marker<dim>> &); \
   template std::vector<MaterialPoint<dim>> to_owners(const Mesh<dim> &,         \
-                                                     const std::vector<MaterialPoint<dim>> &);
+                                                     const std::vector<MaterialPoint<dim>> &);  \
+  template std::vector<Parcel<dim>> to_owners(const Mesh<dim> &, const std::vector<Parcel<dim>> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

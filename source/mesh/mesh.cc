@@ -55,9 +55,6 @@ namespace treacle
     Point<dim>
     end_of_dual_edge(const LocalIndex face) const;
 
-    Point<dim>
-    barycentre(const LocalIndex cell) const;
-
     void
     fill_nodes();
 
@@ -231,16 +228,6 @@ namespace treacle
 
   template <int dim>
   Point<dim>
-  Mesh<dim>::Maker::barycentre(const LocalIndex c) const
-  {
-    Point<dim> x;
-    for (const LocalIndex node : mesh.cell_nodes[c])
-      x += mesh.node_position[node] / (dim + 1);
-    return x;
-  }
-
-  template <int dim>
-  Point<dim>
   Mesh<dim>::Maker::end_of_dual_edge(const LocalIndex f) const
   {
     const Point<dim> &o = mesh.cell_dual[mesh.face_cells[f][0]];
@@ -262,7 +249,8 @@ namespace treacle
         l                  = (end_of_dual_edge(f) - mesh.cell_dual[i]) * mesh.face_normal[f];
         if (j == invalid || least == 0)
           continue;
-        const double shortest = least * ((barycentre(j) - barycentre(i)) * mesh.face_normal[f]);
+        const Tensor<1, dim> way      = barycentre<dim>(mesh.cell_vertices(j)) - barycentre<dim>(mesh.cell_vertices(i));
+        const double         shortest = least * (way * mesh.face_normal[f]);
         mesh.n_clamped_dual_lengths += l < shortest;
         l = std::max(l, shortest);
       }

@@ -36,9 +36,9 @@ namespace treacle
     }
 
     /// Cuts the liquid in emitters and beside them out of state.phi, and puts the emitters
-    /// in. Returns the volume that flowed in (m^dim). Collective.
+    /// in. Returns what flowed in. Collective.
     template <int dim>
-    double
+    std::vector<Parcel<dim>>
     fill_emitters(State<dim> &state, const MeshData<dim> &data, const EmitterFilling<dim> &filling)
     {
       const Mesh<dim>           &mesh = *state.mesh;
@@ -55,7 +55,7 @@ namespace treacle
             filled.local_element(node) = vertices[node].phi.after;
         });
       throw_first(mesh.communicator(), error);
-      double volume = 0;
+      std::vector<Parcel<dim>> inflow;
       for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
         if (const auto &nodes = mesh.cell_nodes[c];
             std::any_of(nodes.begin(), nodes.end(), [&](const LocalIndex node) {
@@ -66,13 +66,13 @@ namespace treacle
             std::transform(nodes.begin(), nodes.end(), v.begin(), [&](const LocalIndex node) {
               return vertices[node];
             });
-            keep_error(error, [&] { volume += emitted(v); });
+            keep_error(error, [&] { inflow.push_back({barycentre<dim>(mesh.cell_vertices(c)), emitted(v)}); });
           }
       throw_first(mesh.communicator(), error);
       filled.update_ghost_values();
       state.phi = filled;
       state.phi.update_ghost_values();
-      return Utilities::MPI::sum(volume, mesh.communicator());
+      return inflow;
     }
 
     /// Emitters that have poured for a time @p dt until @p time take the markers inside away, for the liquid that these bounded has come
@@ -110,16 +110,17 @@ namespace treacle
   } // namespace
 
   template <int dim>
-  double
+  std::vector<Parcel<dim>>
   emit(State<dim> &state, const MeshData<dim> &data, const double dt)
   {
     // steps end where emitters start and stop
     const Scene<dim> &scene = data.scene;
     const double      h = data.mesh.finest_size(), end = state.time, start = std::max(0., end - dt),
                  middle    = 0.5 * (start + end);
-    double       volume    = 0;
-    const auto   fill_with = [&](const double time, const double earlier, const double way) {
-      volume += fill_emitters(state, data, EmitterFilling<dim>(scene, h, time, earlier, way));
+    std::vector<Parcel<dim>> inflow;
+    const auto fill_with = [&](const double time, const double earlier, const double way) {
+      const auto part = fill_emitters(state, data, EmitterFilling<dim>(scene, h, time, earlier, way));
+      inflow.insert(inflow.end(), part.begin(), part.end());
       if (state.material)
         set_material(state, scene, time);
       settle_markers(state, scene, h, time, way);
@@ -134,11 +135,11 @@ namespace treacle
           return emitter.is_at_work(end) && !emitter.is_at_work(middle);
         }))
       fill_with(end, middle, 0);
-    return volume;
+    return inflow;
   }
 
-  template double
+  template std::vector<Parcel<2>>
   emit(State<2> &, const MeshData<2> &, const double);
-  template double
+  template std::vector<Parcel<3>>
   emit(State<3> &, const MeshData<3> &, const double);
 } // namespace treacle

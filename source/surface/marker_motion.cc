@@ -76,6 +76,25 @@ namespace treacle
     return moved;
   }
 
+  template <int dim>
+  std::vector<Parcel<dim>>
+  moved_parcels(const LiquidDomain<dim> &domain, const VelocityInStep<dim> &velocity, const double dt)
+  {
+    std::vector<Parcel<dim>> moved;
+    for (LocalIndex c = 0; c < domain.mesh.n_owned_cells(); ++c)
+      if (domain.liquid_volume[c] > 0)
+        moved.push_back({domain.liquid_centre[c], domain.liquid_volume[c]});
+    Guesses    none;
+    const auto ends = Tracer<dim>(domain.mesh).path_ends(positions(moved), velocity, dt, none);
+    for (unsigned int k = 0; k < moved.size(); ++k)
+      moved[k].position = ends[k];
+    return moved;
+  }
+
+  template std::vector<Parcel<2>>
+  moved_parcels(const LiquidDomain<2> &, const VelocityInStep<2> &, const double);
+  template std::vector<Parcel<3>>
+  moved_parcels(const LiquidDomain<3> &, const VelocityInStep<3> &, const double);
   template std::vector<MaterialPoint<2>>
   moved_material(const State<2> &, const VelocityInStep<2> &, const double);
   template std::vector<MaterialPoint<3>>

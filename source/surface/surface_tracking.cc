@@ -11,6 +11,8 @@
 #include <treacle/surface/stray_markers.h>
 #include <treacle/surface/surface_tracking.h>
 
+#include <numeric>
+
 namespace treacle
 {
   template <int dim>
@@ -32,26 +34,13 @@ namespace treacle
                       Patterns::Integer(1, 1000));
     prm.add_parameter("Volume correction",
                       volume_correction,
-                      "Move the surface evenly along its normal so that the volume stays what it "
-                      "was at the start.");
+                      "Move the surface along its normal, evenly for each body and each thin part of "
+                      "one, so that the volume stays what it was at the start.");
     prm.leave_subsection();
   }
 
   namespace
   {
-    /// Area of phi = 0 over all ranks (m^(dim-1)).
-    template <int dim>
-    double
-    surface_area(const State<dim> &state)
-    {
-      double area = 0;
-      for (LocalIndex c = 0; c < state.mesh->n_owned_cells(); ++c)
-        for_each_facet(*state.mesh, state.phi, c, [&](const auto &x) {
-          area += area_vector<dim>(x).norm();
-        });
-      return Utilities::MPI::sum(area, state.mesh->communicator());
-    }
-
     template <int dim>
     std::unique_ptr<const SurfaceGeometry<dim>>
     surface_of(const State<dim> &state)
@@ -104,10 +93,13 @@ namespace treacle
 
   template <int dim>
   std::unique_ptr<const SurfaceGeometry<dim>>
-  SurfaceTracking<dim>::settle(State<dim> &state, const MeshData<dim> &data, const double volume) const
+  SurfaceTracking<dim>::settle(State<dim>          &state,
+                               const MeshData<dim> &data,
+                               const double         volume,
+                               const Parcels       &parcels) const
   {
     if (prm.volume_correction)
-      correct_volume(state, data, volume);
+      correct_volume(state, data, volume, parcels);
     return surface_of(state);
   }
 
@@ -123,31 +115,89 @@ namespace treacle
       state.markers.clear();
   }
 
+  namespace
+  {
+    /// Of what cells have that two parts share, which may be of either.
+    constexpr double uncertain = 0.1;
+
+    /// What each part is to have: what it @p received, as far as that is known, and of what all have in excess of that less a share by its area.
+    template <int dim>
+    std::vector<double>
+    shares(const double excess, const std::vector<double> &received, const typename LiquidParts<dim>::Measures &now)
+    {
+      std::vector<double> wanted = now.volume;
+      for (std::size_t k = 0; k < wanted.size(); ++k)
+        {
+          const double missing = received[k] - now.volume[k], doubt = uncertain * now.shared[k];
+          wanted[k] += missing - std::clamp(missing, -doubt, doubt);
+        }
+      const auto   sum  = [](const std::vector<double> &values) { return std::accumulate(values.begin(), values.end(), 0.); };
+      const double rest = sum(now.volume) - sum(wanted) - excess, area = sum(now.area);
+      for (std::size_t k = 0; k < wanted.size(); ++k)
+        wanted[k] += area > 0 ? rest * now.area[k] / area : 0;
+      return wanted;
+    }
+
+    /// By how much to move the surface of each part inwards, after an @p offset (m): the derivative of the volume is the area. A lost drop
+    /// must not blow up the rest in one step, so no offset becomes larger than @p largest, and what is thinner than that, and was moved too far, comes
+    /// half the way back at most; what one part cannot have so, the others have by their area.
+    template <int dim>
+    std::vector<double>
+    newton_step(const typename LiquidParts<dim>::Measures &now,
+                const std::vector<double>                 &wanted,
+                const std::vector<double>                 &offset,
+                const double                               largest)
+    {
+      std::vector<double> change(offset.size(), 0);
+      double              left = 0, area = 0;
+      const auto          move = [&](const std::size_t k, const double volume) {
+        const double old = change[k], halfway = volume * offset[k] < 0 ? 0.5 * offset[k] : 0.;
+        change[k]        = std::clamp(offset[k] + old + volume / now.area[k],
+                               halfway > 0 ? halfway : -largest,
+                               halfway < 0 ? halfway : largest) -
+                    offset[k];
+        return volume - (change[k] - old) * now.area[k];
+      };
+      for (std::size_t k = 0; k < change.size(); ++k)
+        if (now.area[k] > 0)
+          {
+            left += move(k, now.volume[k] - wanted[k]);
+            area += std::abs(offset[k] + change[k]) < largest ? now.area[k] : 0.;
+          }
+      for (std::size_t k = 0; k < change.size(); ++k)
+        if (now.area[k] > 0 && std::abs(offset[k] + change[k]) < largest)
+          move(k, left * now.area[k] / area);
+      return change;
+    }
+  } // namespace
+
   template <int dim>
   void
   SurfaceTracking<dim>::correct_volume(State<dim>          &state,
                                        const MeshData<dim> &data,
-                                       const double         volume) const
+                                       const double         volume,
+                                       const Parcels       &parcels) const
   {
-    // Newton's method: the derivative of the volume is the area. A lost drop
-    // must not blow up the rest in one step, hence the bound.
-    const double largest = 0.1 * data.mesh.finest_size();
-    double       offset  = 0;
-    for (unsigned int k = 0; k < 2; ++k)
+    const LiquidParts<dim> parts(data, state.phi, state.time);
+    std::vector<double>    wanted = {volume};
+    if (parts.size() > 1)
+      wanted = shares<dim>(liquid_volume(data, state.phi, state.time) - volume,
+                           parts.received(parcels()),
+                           parts.measures(state.phi));
+    const double        largest = 0.1 * data.mesh.finest_size();
+    std::vector<double> offset(parts.size(), 0);
+    for (unsigned int round = 0; round < 2 && parts.size() > 0; ++round)
       {
-        const double area = surface_area(state);
-        if (area == 0)
-          break;
-        const double wanted =
-          offset + (liquid_volume(data, state.phi, state.time) - volume) / area;
-        const double change = std::min(std::max(wanted, -largest), largest) - offset;
-        offset += change;
+        const std::vector<double> change = newton_step<dim>(parts.measures(state.phi), wanted, offset, largest);
         state.phi.zero_out_ghost_values();
-        state.phi.add(change);
+        for (LocalIndex node = 0; node < data.mesh.n_owned_nodes(); ++node)
+          state.phi.local_element(node) += parts.at_node(node, change);
         state.phi.update_ghost_values();
+        std::transform(offset.begin(), offset.end(), change.begin(), offset.begin(), std::plus<double>());
       }
-    for (Marker<dim> &marker : state.markers)
-      marker.position -= offset * marker.normal;
+    if (parts.size() > 0)
+      for (Marker<dim> &marker : state.markers)
+        marker.position -= parts.at(marker.position, offset) * marker.normal;
     state.markers = to_owners(data.mesh, state.markers);
   }
 

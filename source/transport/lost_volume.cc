@@ -159,13 +159,15 @@ namespace treacle
   }
 
   template <int dim>
-  double
-  sum(const std::vector<LostVolume<dim>> &lost, const MPI_Comm &comm)
+  std::vector<Parcel<dim>>
+  parcels_of(const std::vector<LostVolume<dim>> &lost, const double volume, const double way, const MPI_Comm &comm)
   {
-    double volume = 0;
-    for (const LostVolume<dim> &part : lost)
-      volume += part.volume;
-    return Utilities::MPI::sum(volume, comm);
+    const double             all = sum(lost, comm);
+    std::vector<Parcel<dim>> parcels;
+    if (all > 0)
+      for (const LostVolume<dim> &part : lost)
+        parcels.push_back({part.entry + way * part.outward, volume / all * part.volume});
+    return parcels;
   }
 
   namespace
@@ -260,7 +262,10 @@ namespace treacle
                                                        const MovedSurface<dim> &,             \
                                                        const State<dim> &);                   \
   template double swept_outwards(const MovedSurface<dim> &);                                  \
-  template double sum(const std::vector<LostVolume<dim>> &, const MPI_Comm &);                \
+  template std::vector<Parcel<dim>> parcels_of(const std::vector<LostVolume<dim>> &,          \
+                                               const double,                                  \
+                                               const double,                                  \
+                                               const MPI_Comm &);                             \
   template Vector lost_by_cells(const LiquidDomain<dim> &, const std::vector<LostVolume<dim>> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

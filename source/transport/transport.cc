@@ -22,25 +22,45 @@ namespace treacle
     /// A surface that moves by fewer leaves keeps its distances and markers.
     constexpr double far = 0.1;
 
-    /// Of the volume @p wanted, what is missing in walls and liquid, and what is lost otherwise, in a @p state that won some
-    /// (m^dim). Collective.
+    /// What a step that came to a @p state did to the volume that the liquid had before it, of what is @p wanted (m^dim): what is missing in
+    /// walls and liquid, and what was lost otherwise. Collective.
     template <int dim>
     void
     account_for(typename Transport<dim>::Info &info,
-                const double                   won,
+                const double                   before,
                 const double                   wanted,
-                const Scene<dim>              &scene,
+                const bool                     is_kept,
                 const MovedSurface<dim>       &surface,
+                const MeshData<dim>           &data,
                 const State<dim>              &state)
     {
-      if (-won <= least_lost * wanted) // neither where there is no liquid
-        return;
-      const auto in_liquid = lost_in_liquid(scene, surface, state);
-      info.lost.insert(info.lost.end(), in_liquid.begin(), in_liquid.end());
-      info.missing = std::min(sum(info.lost, surface.mesh.communicator()), -won);
-      if (info.missing < least_lost * wanted)
-        info.missing = 0;
-      info.swallowed = (-won - info.missing) / swept_outwards(surface);
+      const double won = liquid_volume(data, state.phi, state.time) - info.emitted - before;
+      if (is_kept && -won > least_lost * wanted) // nor where there is no liquid
+        {
+          const auto in_liquid = lost_in_liquid(data.scene, surface, state);
+          info.lost.insert(info.lost.end(), in_liquid.begin(), in_liquid.end());
+          info.missing = std::min(sum(info.lost, surface.mesh.communicator()), -won);
+          if (info.missing < least_lost * wanted)
+            info.missing = 0;
+          info.swallowed = (-won - info.missing) / swept_outwards(surface);
+        }
+      info.drift = wanted > 0 ? (won + info.missing) / wanted : 0;
+    }
+
+    /// All liquid after a move: what the cells had, what came in, and a @p part (m^dim) of what was lost. Collective.
+    template <int dim>
+    std::vector<Parcel<dim>>
+    all_parcels(const Advection<dim>               &advection,
+                const std::vector<Parcel<dim>>     &inflow,
+                const std::vector<LostVolume<dim>> &lost,
+                const double                        part,
+                const Mesh<dim>                    &mesh)
+    {
+      auto result = advection.move_parcels();
+      result.insert(result.end(), inflow.begin(), inflow.end());
+      const auto of_lost = parcels_of(lost, part, 0.5 * mesh.finest_size(), mesh.communicator());
+      result.insert(result.end(), of_lost.begin(), of_lost.end());
+      return result;
     }
   } // namespace
 
@@ -76,16 +96,15 @@ namespace treacle
     info.rebuilt       = mesh != old.mesh;
     auto data          = info.rebuilt ? std::make_shared<const MeshData<dim>>(*mesh, scene) : liquid.mesh_data;
     next->markers      = to_owners(*mesh, markers);
-    info.emitted       = emit(*next, *data, difference.dt);
+    const auto inflow  = emit(*next, *data, difference.dt);
+    info.emitted       = sum(inflow, mesh->communicator());
     tracking.follow_markers(*next, *data, difference.dt, time_step.reach_of_distance(reach, *mesh));
     const double wanted = volume + info.emitted;
     // what earlier steps left to be corrected is not of this one
-    const double won = liquid_volume(*data, next->phi, next->time) - info.emitted -
-                       liquid.domain->total_volume();
-    if (tracking.keeps_volume())
-      account_for<dim>(info, won, wanted, scene, moved, *next);
-    info.drift   = wanted > 0 ? (won + info.missing) / wanted : 0;
-    auto surface = tracking.settle(*next, *data, wanted - info.missing);
+    account_for<dim>(info, liquid.domain->total_volume(), wanted, tracking.keeps_volume(), moved, *data, *next);
+    auto surface = tracking.settle(*next, *data, wanted - info.missing, [&] {
+      return all_parcels<dim>(advection, inflow, info.lost, -info.missing, *mesh);
+    });
     settle_material(*next, *data);
     liquid = {std::move(data), std::move(next), std::move(surface), nullptr};
     return info;
@@ -167,14 +186,14 @@ namespace treacle
   void
   Transport<dim>::displace(Liquid<dim>       &liquid,
                            const Liquid<dim> &pushed,
-                           const double       swept,
+                           const Info        &moved,
                            const double       volume) const
   {
     State<dim>  &state = *liquid.state;
     const double flux  = flux_through_surface(scene, liquid.surface->facets, *pushed.state);
     if (flux <= 0)
       return;
-    const double         dt = std::min(swept / flux, 3.);
+    const double         dt = std::min(moved.missing / flux, 3.);
     const Advection<dim> advection(prm.advection,
                                    *pushed.state,
                                    *pushed.domain,
@@ -183,12 +202,16 @@ namespace treacle
                                    false);
     move_level_set(state, *liquid.mesh_data, advection);
     state.markers = to_owners(*state.mesh, advection.move_markers());
+    const auto parcels = [&] {
+      return all_parcels<dim>(advection, {}, moved.lost, moved.missing, *state.mesh);
+    };
     liquid.surface = dt * fastest_crossing(*pushed.domain, pushed.state->v) > far ?
                        tracking.advance(state,
                                         *liquid.mesh_data,
                                         time_step.reach_of_distance(time_step.reach(state, *liquid.domain), *state.mesh),
-                                        volume) :
-                       tracking.settle(state, *liquid.mesh_data, volume);
+                                        volume,
+                                        parcels) :
+                       tracking.settle(state, *liquid.mesh_data, volume, parcels);
     if (state.material)
       state.material->points = to_owners(*state.mesh, advection.move_material());
     settle_material(state, *liquid.mesh_data);

@@ -151,7 +151,7 @@ carry(const MPI_Comm                                  &comm,
       next->v.update_ghost_values();
       if (mesh != state->mesh)
         data = std::make_shared<const MeshData<dim>>(*mesh, scene);
-      surface = tracking.advance(*next, *data, reach, volume);
+      surface = tracking.advance(*next, *data, reach, volume, [&] { return advection.move_parcels(); });
       state   = std::move(next);
       const double shown = liquid_volume(*data, state->phi, state->time);
       errors.least       = std::min(errors.least, shown);

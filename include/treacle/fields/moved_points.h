@@ -30,7 +30,7 @@ namespace treacle
       items[k].position = inside[k];
   }
 
-  /// Each marker or material point on the rank that owns the cell it lies in, of a lattice the leaf.
+  /// Each marker, material point or parcel on the rank that owns the cell it lies in, of a lattice the leaf.
   /// Collective.
   template <int dim, template <int> class Item>
   std::vector<Item<dim>>

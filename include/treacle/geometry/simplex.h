@@ -26,6 +26,17 @@ namespace treacle
     return std::inner_product(values.begin(), values.end(), lambda.begin(), 0.);
   }
 
+  /// The mean of the vertices.
+  template <int dim>
+  Point<dim>
+  barycentre(const Simplex<dim> &x)
+  {
+    Point<dim> mean;
+    for (const Point<dim> &vertex : x)
+      mean += vertex / (dim + 1);
+    return mean;
+  }
+
   /// Volume (m^dim), positive for right-handed vertex order.
   template <int dim>
   double

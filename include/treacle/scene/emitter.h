@@ -7,6 +7,8 @@
 #include <treacle/geometry/shapes.h>
 #include <treacle/scene/material.h>
 
+#include <deal.II/base/bounding_box.h>
+
 namespace treacle
 {
   /// A shape that is kept full of liquid moving at a given velocity while it is at

@@ -5,17 +5,18 @@
 #define treacle_surface_emission_h
 
 #include <treacle/fields/mesh_data.h>
+#include <treacle/fields/parcel.h>
 #include <treacle/fields/state.h>
 
 namespace treacle
 {
   /// Fills the emitters that were at work in the step of size @p dt that ends at
   /// state.time, and those that start there: level set, markers and carried material. The skin of a stream along the wall it comes from
-  /// is removed. Returns the volume that flowed in
-  /// (m^dim), which is less than the emitter's volume rate where the liquid around
+  /// is removed. Returns what flowed in, by the cells of this rank,
+  /// which is less than the emitter's volume rate where the liquid around
   /// it takes part in the motion. Collective.
   template <int dim>
-  double
+  std::vector<Parcel<dim>>
   emit(State<dim> &state, const MeshData<dim> &data, const double dt);
 } // namespace treacle
 

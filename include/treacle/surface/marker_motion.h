@@ -4,7 +4,8 @@
 #ifndef treacle_surface_marker_motion_h
 #define treacle_surface_marker_motion_h
 
-#include <treacle/fields/state.h>
+#include <treacle/fields/liquid_domain.h>
+#include <treacle/fields/parcel.h>
 #include <treacle/mesh/tracer.h>
 
 namespace treacle
@@ -19,6 +20,11 @@ namespace treacle
   template <int dim>
   std::vector<MaterialPoint<dim>>
   moved_material(const State<dim> &state, const VelocityInStep<dim> &velocity, const double dt);
+
+  /// What liquid each cell of this rank has, where it is after dt, or would be if there were no walls. Collective.
+  template <int dim>
+  std::vector<Parcel<dim>>
+  moved_parcels(const LiquidDomain<dim> &domain, const VelocityInStep<dim> &velocity, const double dt);
 } // namespace treacle
 
 #endif

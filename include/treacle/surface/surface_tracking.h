@@ -5,9 +5,12 @@
 #define treacle_surface_surface_tracking_h
 
 #include <treacle/fields/mesh_data.h>
+#include <treacle/surface/liquid_parts.h>
 #include <treacle/surface/surface_geometry.h>
 
 #include <deal.II/base/parameter_handler.h>
+
+#include <functional>
 
 namespace treacle
 {
@@ -45,19 +48,25 @@ namespace treacle
     void
     follow_markers(State<dim> &state, const MeshData<dim> &data, const double dt, const double reach) const;
 
-    /// The surface, with volume correction moved to restore @p volume (m^dim), with its markers.
+    /// The liquid of a step, as it has come to where it is now, or would be if there were no walls, on whichever rank. Collective; only asked for where there are
+    /// several parts.
+    using Parcels = std::function<std::vector<Parcel<dim>>()>;
+
+    /// The surface, with volume correction moved to restore @p volume (m^dim), with its markers: of each part of the liquid what has come to it, and an even part of
+    /// what is missing in all.
     std::unique_ptr<const SurfaceGeometry<dim>>
-    settle(State<dim> &state, const MeshData<dim> &data, const double volume) const;
+    settle(State<dim> &state, const MeshData<dim> &data, const double volume, const Parcels &parcels) const;
 
     /// One after the other, after a move that takes no time.
     std::unique_ptr<const SurfaceGeometry<dim>>
     advance(State<dim>          &state,
             const MeshData<dim> &data,
             const double         reach,
-            const double         volume) const
+            const double         volume,
+            const Parcels       &parcels) const
     {
       follow_markers(state, data, 0, reach);
-      return settle(state, data, volume);
+      return settle(state, data, volume, parcels);
     }
 
     /// Markers, if there are to be any, on a surface that has too few.
@@ -78,7 +87,7 @@ namespace treacle
     }
 
     void
-    correct_volume(State<dim> &state, const MeshData<dim> &data, const double volume) const;
+    correct_volume(State<dim> &state, const MeshData<dim> &data, const double volume, const Parcels &parcels) const;
 
     const Parameters prm;
   };

@@ -93,6 +93,13 @@ namespace treacle
       return moved_material<dim>(old, velocity.surface, dt);
     }
 
+    /// The same of what liquid the cells have; it may go into walls.
+    std::vector<Parcel<dim>>
+    move_parcels() const
+    {
+      return moved_parcels<dim>(domain, velocity.surface, dt);
+    }
+
     /// Where what the surface's velocity brings to points of the new time was, and phi there.
     struct Feet
     {

@@ -4,6 +4,7 @@
 #ifndef treacle_transport_lost_volume_h
 #define treacle_transport_lost_volume_h
 
+#include <treacle/fields/parcel.h>
 #include <treacle/scene/scene.h>
 #include <treacle/surface/liquid.h>
 
@@ -47,10 +48,21 @@ namespace treacle
   double
   swept_outwards(const MovedSurface<dim> &surface);
 
-  /// Its sum over all ranks (m^dim). Collective.
-  template <int dim>
+  /// Volume of lost parts or parcels over all ranks (m^dim). Collective.
+  template <typename Part>
   double
-  sum(const std::vector<LostVolume<dim>> &lost, const MPI_Comm &comm);
+  sum(const std::vector<Part> &parts, const MPI_Comm &comm)
+  {
+    double volume = 0;
+    for (const Part &part : parts)
+      volume += part.volume;
+    return Utilities::MPI::sum(volume, comm);
+  }
+
+  /// A @p volume (m^dim) of what was lost, @p way (m) in front of where that was. Collective.
+  template <int dim>
+  std::vector<Parcel<dim>>
+  parcels_of(const std::vector<LostVolume<dim>> &lost, const double volume, const double way, const MPI_Comm &comm);
 
   /// The same by the pressure cells there, in front of walls within two leaves; what finds none is
   /// left out. Collective.

@@ -64,11 +64,11 @@ namespace treacle
                 Timing                   &timing) const;
 
     /// The surface and its material points move on by the velocity of @p pushed, and nothing else, until
-    /// they have swept a volume (in about a second); with volume correction to @p volume in all (m^dim).
+    /// they have swept what is missing after a step (in about a second); with volume correction to @p volume in all (m^dim).
     void
     displace(Liquid<dim>       &liquid,
              const Liquid<dim> &pushed,
-             const double       swept,
+             const Info        &moved,
              const double       volume) const;
 
     /// Velocity and material move on, but neither surface nor mesh.

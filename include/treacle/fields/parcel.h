@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_fields_parcel_h
+#define treacle_fields_parcel_h
+
+#include <treacle/base/types.h>
+
+namespace treacle
+{
+  /// Some liquid that moves as one.
+  template <int dim>
+  struct Parcel
+  {
+    Point<dim> position; ///< of its centroid (m)
+    double     volume;   ///< m^dim
+
+    /// For messages: position, then volume.
+    using Numbers = std::array<double, dim + 1>;
+
+    Numbers
+    numbers() const
+    {
+      Numbers n;
+      for (unsigned int d = 0; d < dim; ++d)
+        n[d] = position[d];
+      n[dim] = volume;
+      return n;
+    }
+
+    static Parcel
+    from(const double *n)
+    {
+      Parcel parcel;
+      for (unsigned int d = 0; d < dim; ++d)
+        parcel.position[d] = n[d];
+      parcel.volume = n[dim];
+      return parcel;
+    }
+  };
+} // namespace treacle
+
+#endif
