@@ -194,20 +194,22 @@ namespace treacle
     Measures                   here{zeros, zeros, zeros}, all = here;
     for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
       {
-        const Simplex<dim> x = mesh.cell_vertices(c);
+        const Simplex<dim> x         = mesh.cell_vertices(c);
+        const double       in_common = is_shared(c);
         if (const auto liquid = liquid_moments<dim>(x, mesh.values(c, phi), mesh.values(c, solid_distance)); liquid.volume > 0)
           share(c,
                 barycentric_coordinates<dim>(x, Point<dim>(liquid.first / liquid.volume)),
                 [&](const std::size_t k, const double fraction) {
                   here.volume[k] += fraction * liquid.volume;
-                  here.shared[k] += is_shared(c) ? fraction * liquid.volume : 0.;
+                  here.shared[k] += in_common * fraction * liquid.volume;
                 });
         for_each_facet(mesh, phi, c, [&](const std::array<Point<dim>, dim> &facet) {
-          const Point<dim> middle = std::accumulate(facet.begin() + 1, facet.end(), facet[0]) / dim;
+          const double            area   = area_vector<dim>(facet).norm();
+          const Point<dim>        middle = std::accumulate(facet.begin() + 1, facet.end(), facet[0]) / dim;
           const VertexValues<dim> lambda = barycentric_coordinates<dim>(x, middle);
           for (unsigned int i = 0; i <= dim; ++i)
             if (const LocalIndex node = mesh.cell_nodes[c][i]; !is_held[node] && part[node] < size())
-              here.area[part[node]] += lambda[i] * area_vector<dim>(facet).norm();
+              here.area[part[node]] += lambda[i] * area;
         });
       }
     for (const auto member : {&Measures::volume, &Measures::area, &Measures::shared})
