@@ -136,7 +136,7 @@ namespace treacle
     liquid.state      = std::make_unique<State<dim>>(mesh);
     State<dim> &state = *liquid.state;
     set_initial_level_set(state, scene);
-    redistance(state, time_step.largest_reach(*mesh));
+    redistance(state, time_step.largest_reach(*mesh), liquid.mesh_data->solid_distance(state.time));
     if (scene.has_advected_material())
       {
         set_initial_material(state, *liquid.mesh_data);

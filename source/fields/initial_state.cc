@@ -102,40 +102,6 @@ namespace treacle
     throw_first(mesh.communicator(), error);
   }
 
-  namespace
-  {
-    /// At t = 0, as if liquid went on beyond solids; in them the distance goes on as it is before their wall.
-    template <int dim>
-    double
-    beyond_solids(const Scene<dim> &scene, const Distance<dim> &f, const Point<dim> &x, const double h)
-    {
-      // leaves; a formula's distance may be too long
-      constexpr double farthest = 20, into_solids = 3;
-      const double     phi      = f(x);
-      if (phi < -(AtWall::reach + AtWall::touching) * h || phi > farthest * h)
-        return phi;
-      const double s = scene.solid_distance(x, 0);
-      if (s > AtWall::reach * h)
-        return phi;
-      const Tensor<1, dim> gradient =
-        gradient_of<dim>([&](const Point<dim> &p) { return scene.solid_distance(p, 0); }, x, 0.01 * h);
-      const double slope = gradient.norm();
-      if (!(slope > 0))
-        return phi;
-      const Tensor<1, dim> away   = gradient / slope;
-      const auto           before = [&](const double way) {
-        return beyond_wall<dim>(f, x + (way - s / slope) * away, way, away, h);
-      };
-      if (s >= 0)
-        return before(s / slope);
-      const double depth = -s / slope;
-      if (phi <= 0 || depth > into_solids * h || f(x + (depth + AtWall::touching * h) * away) >= 0)
-        return phi;
-      const double near = before(0.5 * depth), far = before(depth);
-      return std::min(phi, near + 3 * (near - far));
-    }
-  } // namespace
-
   template <int dim>
   Distance<dim>
   initial_distance(const Scene<dim> &scene, const bool has_box, const double h)
@@ -148,7 +114,8 @@ namespace treacle
     };
     if (!scene.has_solids())
       return f;
-    return [&scene, f, h](const Point<dim> &x) { return beyond_solids<dim>(scene, f, x, h); };
+    const Distance<dim> solids = [&scene](const Point<dim> &x) { return scene.solid_distance(x, 0); };
+    return [f, solids, h](const Point<dim> &x) { return beyond_solids<dim>(f, solids, x, h); };
   }
 
   template <int dim>

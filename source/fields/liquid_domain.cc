@@ -3,6 +3,7 @@
 
 #include <treacle/base/choice.h>
 #include <treacle/base/exchange.h>
+#include <treacle/fields/face_opening.h>
 #include <treacle/fields/held_nodes.h>
 #include <treacle/fields/liquid_domain.h>
 #include <treacle/fields/viscosity_jumps.h>
@@ -58,11 +59,14 @@ namespace treacle
   {
     held_distance = solid_distance;
     is_emitter_node.assign(solid_distance.size(), 0);
+    emitter_distance.clear();
     if (scene.emitters().empty())
       return;
+    emitter_distance.resize(held_distance.size());
     for (LocalIndex node = 0; node < held_distance.size(); ++node)
       {
         const double distance = scene.emitter_distance(mesh.node_position[node], time);
+        emitter_distance[node] = distance;
         is_emitter_node[node] = distance <= 0 && solid_distance[node] > 0;
         held_distance[node]   = std::min(held_distance[node], distance);
       }
@@ -145,52 +149,6 @@ namespace treacle
   }
 
   template <int dim>
-  void
-  LiquidDomain<dim>::measure_openings(const LocalIndex f, const double time)
-  {
-    std::array<Point<dim>, dim> x;
-    VertexValues<dim - 1>       open, held;
-    for (unsigned int i = 0; i < dim; ++i)
-      {
-        x[i]    = mesh.node_position[mesh.face_nodes[f][i]];
-        held[i] = held_distance[mesh.face_nodes[f][i]];
-        open[i] = -held[i];
-      }
-    open_fraction[f] = negative_fraction<dim - 1>(open);
-    // through slits the least error of what the others carry would shoot
-    if (open_fraction[f] < 1e-4)
-      open_fraction[f] = 0;
-    if (open_fraction[f] == 1 && mesh.face_side[f] == Mesh<dim>::no_side)
-      return;
-    measure_held_part(f, x, held, time);
-  }
-
-  template <int dim>
-  void
-  LiquidDomain<dim>::measure_held_part(const LocalIndex                   f,
-                                       const std::array<Point<dim>, dim> &x,
-                                       const VertexValues<dim - 1>       &held,
-                                       const double                       time)
-  {
-    // at the centroid the flux of a rigid motion is exact, and what the held parts of
-    // a cell's faces carry balances but for the area between them
-    const Point<dim> centre = negative_centroid<dim>(x, held);
-    const bool       in_emitter = scene.is_emitter_nearest(centre, time);
-    if (mesh.face_side[f] == Mesh<dim>::no_side)
-      {
-        solid_velocity[f] = (in_emitter ? scene.emitter_velocity(centre, time) :
-                                          scene.solid_velocity(centre, time)) *
-                            mesh.face_normal[f];
-        return;
-      }
-    // a wall at rest, but where an emitter pours through it
-    if (in_emitter)
-      solid_velocity[f] = negative_fraction<dim - 1>(held) *
-                          (scene.emitter_velocity(centre, time) * mesh.face_normal[f]);
-    open_fraction[f] = 0;
-  }
-
-  template <int dim>
   double
   LiquidDomain<dim>::liquid_part_of_dual_edge(const LocalIndex face) const
   {
@@ -215,9 +173,10 @@ namespace treacle
     Vector       mass = mesh.zeros(mesh.faces), part = mesh.zeros(mesh.faces);
     unsigned int n_clamped = 0;
     std::string  error;
+    const FaceOpening<dim> opening(mesh, scene, solid_distance, emitter_distance, state.time);
     for (LocalIndex f = 0; f < n; ++f)
       {
-        keep_error(error, [&] { measure_openings(f, state.time); });
+        keep_error(error, [&] { std::tie(open_fraction[f], solid_velocity[f]) = opening(f); });
         if (f >= mesh.n_owned_faces() || open_fraction[f] == 0)
           continue;
         const LocalIndex i = mesh.face_cells[f][0], j = mesh.face_cells[f][1];

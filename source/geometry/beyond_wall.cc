@@ -34,6 +34,35 @@ namespace treacle
   }
 
   template <int dim>
+  double
+  beyond_solids(const Distance<dim> &f, const Distance<dim> &solids, const Point<dim> &x, const double h)
+  {
+    // leaves; a formula's distance may be too long
+    constexpr double farthest = 20, into_solids = 3;
+    const double     phi      = f(x);
+    if (phi < -(AtWall::reach + AtWall::touching) * h || phi > farthest * h)
+      return phi;
+    const double s = solids(x);
+    if (s > AtWall::reach * h)
+      return phi;
+    const Tensor<1, dim> gradient = gradient_of<dim>(solids, x, 0.01 * h);
+    const double         slope    = gradient.norm();
+    if (!(slope > 0))
+      return phi;
+    const Tensor<1, dim> away   = gradient / slope;
+    const auto           before = [&](const double way) {
+      return beyond_wall<dim>(f, x + (way - s / slope) * away, way, away, h);
+    };
+    if (s >= 0)
+      return before(s / slope);
+    const double depth = -s / slope;
+    if (phi <= 0 || depth > into_solids * h || f(x + (depth + AtWall::touching * h) * away) >= 0)
+      return phi;
+    const double near = before(0.5 * depth), far = before(depth);
+    return std::min(phi, near + 3 * (near - far));
+  }
+
+  template <int dim>
   Distance<dim>
   beyond_sides(Distance<dim> f, const BoundingBox<dim> &box, const double h)
   {
@@ -53,6 +82,8 @@ namespace treacle
 #define INSTANTIATE(dim)                                                                                             \
   template double beyond_wall<dim>(                                                                                  \
     const Distance<dim> &, const Point<dim> &, const double, const Tensor<1, dim> &, const double);                  \
+  template double beyond_solids<dim>(                                                                                \
+    const Distance<dim> &, const Distance<dim> &, const Point<dim> &, const double);                                 \
   template Distance<dim> beyond_sides<dim>(Distance<dim>, const BoundingBox<dim> &, const double);
   INSTANTIATE(2)
   INSTANTIATE(3)

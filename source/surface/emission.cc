@@ -84,7 +84,7 @@ namespace treacle
     {
       constexpr double    inside = 0.1, about = 0.25, across = 0.02; // leaves
       constexpr double    alike = 0.5;                               // cosine of normals
-      const Distance<dim> distance = [&](const Point<dim> &x) { return scene.emitter_distance(x, time); };
+      const Distance<dim> distance = distance_to_filled(scene, h, time);
       const auto          is_behind = [&](const Marker<dim> &marker, const Marker<dim> &on) {
         if (!(on.normal * marker.normal > alike))
           return false;

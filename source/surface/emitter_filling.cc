@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/geometry/beyond_wall.h>
 #include <treacle/surface/emitter_filling.h>
 
 namespace treacle
@@ -29,24 +30,53 @@ namespace treacle
   } // namespace
 
   template <int dim>
+  Distance<dim>
+  distance_to_filled(const Scene<dim> &scene, const double h, const double time)
+  {
+    const Distance<dim> emitters = [&scene, time](const Point<dim> &x) { return scene.emitter_distance(x, time); };
+    if (!scene.has_solids())
+      return emitters;
+    const Distance<dim> solids = [&scene, time](const Point<dim> &x) { return scene.solid_distance(x, time); };
+    return [emitters, solids, h](const Point<dim> &x) { return beyond_solids<dim>(emitters, solids, x, h); };
+  }
+
+  template <int dim>
+  EmitterFilling<dim>::EmitterFilling(const Scene<dim> &scene,
+                                      const double      h,
+                                      const double      time,
+                                      const double      earlier,
+                                      const double      dt)
+    : scene(scene)
+    , h(h)
+    , time(time)
+    , dt(dt)
+    , filled(distance_to_filled(scene, h, time))
+    , filled_before(distance_to_filled(scene, h, earlier))
+  {}
+
+  template <int dim>
   typename EmitterFilling<dim>::Phi
   EmitterFilling<dim>::phi(const Point<dim> &x, const double old) const
   {
-    const double distance = scene.emitter_distance(x, time);
+    const double distance = filled(x);
     if (distance >= 2 * h) // what flowed in is no other than what was there
       return {std::min(old, distance), distance, distance};
     const Point<dim> from  = x - dt * scene.emitter_velocity(x, time);
     const double     depth = depth_beyond(from, scene, time);
     // what flowed on from there has sharp edges here; what phi shows of it bulges beside them for their volume
     constexpr double bulge  = 0.1; // leaves
-    const double     before = std::max(std::min(old + bulge * h, scene.emitter_distance(from, earlier)), depth);
+    const double     before = std::max(std::min(old + bulge * h, filled_before(from)), depth);
     const bool       is_skin =
-      depth > 0 && old > -h && scene.emitter_distance(in_box(from, scene), time) > 0;
+      depth > 0 && old > -h && filled(in_box(from, scene)) > 0;
     return {std::min(is_skin ? std::max(old, depth) : old, distance),
             distance,
             std::max(distance, before)};
   }
 
-  template class EmitterFilling<2>;
-  template class EmitterFilling<3>;
+#define INSTANTIATE(dim)                                                                                 \
+  template Distance<dim> distance_to_filled<dim>(const Scene<dim> &, const double, const double);        \
+  template class EmitterFilling<dim>;
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
 } // namespace treacle

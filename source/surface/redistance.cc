@@ -73,12 +73,12 @@ namespace treacle
 
   template <int dim>
   void
-  redistance(State<dim> &state, const double reach)
+  redistance(State<dim> &state, const double reach, const std::vector<double> &solid_distance)
   {
     const Mesh<dim>           &mesh = *state.mesh;
     const Cut                  cut(mesh, state.phi);
     Vector                     phi = scaled(mesh, state.phi, cut);
-    const SurfaceDistance<dim> surface(mesh, extract_surface(mesh, phi), reach);
+    const SurfaceDistance<dim> surface(mesh, extract_surface(mesh, phi), reach, solid_distance);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
         if (cut.node[node])
@@ -99,7 +99,7 @@ namespace treacle
   }
 
   template void
-  redistance(State<2> &, const double);
+  redistance(State<2> &, const double, const std::vector<double> &);
   template void
-  redistance(State<3> &, const double);
+  redistance(State<3> &, const double, const std::vector<double> &);
 } // namespace treacle

@@ -12,27 +12,48 @@
 namespace treacle
 {
   template <int dim>
-  SurfaceDistance<dim>::SurfaceDistance(const Mesh<dim>    &mesh,
-                                        const Surface<dim> &surface,
-                                        const double        reach)
+  SurfaceDistance<dim>::SurfaceDistance(const Mesh<dim>           &mesh,
+                                        const Surface<dim>        &surface,
+                                        const double               reach,
+                                        const std::vector<double> &solid_distance)
     : reach(reach)
     , box(mesh.box())
     , tolerance(1e-12 * box.side_length(0))
   {
-    gather_facets(mesh, surface);
+    gather_facets(mesh, surface, solid_distance);
     tree = FacetTree<dim>(facets);
   }
 
+  namespace
+  {
+    /// At the centroid of a facet.
+    template <int dim>
+    double
+    mean_over_facet(const std::vector<double> &values, const Surface<dim> &surface, const unsigned int facet)
+    {
+      double mean = 0;
+      for (const unsigned int v : surface.facets[facet])
+        {
+          const auto &[a, b, t] = surface.vertices[v];
+          mean += ((1 - t) * values[a] + t * values[b]) / dim;
+        }
+      return mean;
+    }
+  } // namespace
+
   template <int dim>
   void
-  SurfaceDistance<dim>::gather_facets(const Mesh<dim> &mesh, const Surface<dim> &surface)
+  SurfaceDistance<dim>::gather_facets(const Mesh<dim>           &mesh,
+                                      const Surface<dim>        &surface,
+                                      const std::vector<double> &solid_distance)
   {
-    const NearRanks<dim>                   near(mesh, reach);
-    PerRank<std::array<double, dim * dim>> to_rank(near.n_ranks());
+    const NearRanks<dim>                       near(mesh, reach);
+    PerRank<std::array<double, dim * dim + 1>> to_rank(near.n_ranks());
     for (unsigned int k = 0; k < surface.facets.size(); ++k)
       {
         const Facet x = surface.facet_points(k);
         facets.push_back(x);
+        in_solid.push_back(!solid_distance.empty() && mean_over_facet(solid_distance, surface, k) <= 0);
         const auto [lower, upper] =
           BoundingBox<dim>(std::vector<Point<dim>>(x.begin(), x.end())).get_boundary_points();
         near.for_each(lower, upper, [&](const unsigned int r) {
@@ -40,6 +61,7 @@ namespace treacle
           for (unsigned int i = 0; i < dim; ++i)
             for (unsigned int d = 0; d < dim; ++d)
               to_rank[r].back()[dim * i + d] = x[i][d];
+          to_rank[r].back().back() = in_solid.back();
         });
       }
     for (const auto &received : send_and_receive(mesh.communicator(), to_rank))
@@ -49,6 +71,7 @@ namespace treacle
           for (unsigned int i = 0; i < dim; ++i)
             for (unsigned int d = 0; d < dim; ++d)
               facets.back()[i][d] = numbers[dim * i + d];
+          in_solid.push_back(numbers.back() != 0);
         }
   }
 
@@ -103,7 +126,7 @@ namespace treacle
         if (&c == &candidates.front() || comes_first(c.point, best.point, tolerance))
           best.point = c.point;
         best.distance =
-          std::min(best.distance, distance_beyond_box(x, c.point, facets[c.facet]));
+          std::min(best.distance, distance_beyond_box(x, c));
       }
     return best;
   }
@@ -123,21 +146,22 @@ namespace treacle
 
   template <int dim>
   double
-  SurfaceDistance<dim>::distance_beyond_box(const Point<dim> &x,
-                                            const Point<dim> &nearest,
-                                            const Facet      &facet) const
+  SurfaceDistance<dim>::distance_beyond_box(const Point<dim> &x, const Candidate &candidate) const
   {
-    const double actual = x.distance(nearest);
-    bool         on_box = false;
+    const Point<dim> &nearest = candidate.point;
+    bool              on_box  = false;
     for (unsigned int d = 0; d < dim; ++d)
       on_box = on_box || std::abs(nearest[d] - box.lower_bound(d)) < tolerance ||
                std::abs(nearest[d] - box.upper_bound(d)) < tolerance;
-    const Tensor<1, dim> a = area_vector<dim>(facet);
+    const Tensor<1, dim> a = area_vector<dim>(facets[candidate.facet]);
     if (!on_box || a.norm() == 0)
-      return actual;
+      return candidate.distance;
     const double     above = (x - nearest) * a / a.norm();
     const Point<dim> foot  = x - above * a / a.norm();
-    return box.point_inside(foot, 0) ? actual : std::abs(above);
+    if (box.point_inside(foot, 0))
+      return candidate.distance;
+    constexpr double flattest = 0.5; // 30 degrees to the side
+    return std::max(std::abs(above), in_solid[candidate.facet] ? flattest * candidate.distance : 0.);
   }
 
   template class SurfaceDistance<2>;

@@ -74,13 +74,13 @@ namespace treacle
     if (!has_markers())
       {
         state.markers.clear();
-        redistance(state, reach);
+        redistance(state, reach, data.solid_distance(state.time));
         close_air_pockets(state, data, dt, reach);
         return;
       }
     MarkerCorrection<dim> markers(state);
     markers.apply(state);
-    redistance(state, reach);
+    redistance(state, reach, data.solid_distance(state.time));
     markers.apply(state);
     markers.fill_thin_parts(state, data);
     close_air_pockets(state, data, dt, reach);

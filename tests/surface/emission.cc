@@ -106,6 +106,48 @@ pour_straight(const MPI_Comm &comm)
         << (std::abs(won) < 0.03 * poured ? "less than 3 %" : "TOO MUCH, " + std::to_string(won / poured)) << std::endl;
 }
 
+/// One that fills a channel, in 3D a quarter of a pipe beside two planes of symmetry, up to its wall; neither the wall nor its end lies on
+/// sides of leaves. What it pours comes out at the other end.
+template <int dim>
+void
+pour_through_channel(const MPI_Comm &comm)
+{
+  const std::string along = dim == 2 ? "1; 0" : "0; 0; 1";
+  const auto        body  = [&](const double end) {
+    const std::string to = std::to_string(end);
+    return (dim == 2 ? "set Shape = box\nset Lower corner = -1, -1\nset Upper corner = " + to + ", 0.11" :
+                       "set Shape = cylinder\nset Centre = 0, 0, 0\nset Radius = 0.11\nset Length = " +
+                         std::to_string(2 * end)) +
+           "\nset Velocity = " + along + "\nend\n";
+  };
+  const auto rows = run_scene<dim>(
+    comm,
+    "set End time = 0.2\nset Frame interval = 10\nset Maximum time step = 0.02\n" + mesh_section(dim == 2 ? 4 : 3) +
+      "subsection Domain\nset Wall condition = free slip\nset Upper corner = " + (dim == 2 ? "0.75, 0.25" : "0.25, 0.25, 0.75") +
+      "\nend\nsubsection Material\nset Density = 1\nset Viscosity = 10\nend\n"
+      "subsection Gravity\nset Acceleration = " +
+      (dim == 2 ? "0; 0" : "0; 0; 0") + "\nend\nsubsection Liquid 1\n" + body(0.3) + "subsection Emitter 1\n" + body(0.06) +
+      "subsection Solid 1\nset Shape = expression\nset Expression = " +
+      (dim == 2 ? "max(0.11 - y, x - 0.3)" : "max(0.11 - sqrt(x*x + y*y), z - 0.3)") + "\nend\n",
+    1,
+    1,
+    1);
+  const double section = dim == 2 ? 0.11 : numbers::PI / 4 * 0.11 * 0.11;
+  const double fastest = rows.back().at("Maximum speed (m/s)") / (dim == 2 ? 1.5 : 2); // Poiseuille
+  double       lost    = 0; // in a step, of what is poured
+  for (const Row &row : rows)
+    if (row.at("Time (s)") > 0.1)
+      lost = std::max(lost,
+                      std::abs(row.at("Drift before correction")) *
+                        row.at(dim == 2 ? "Liquid volume (m^2)" : "Liquid volume (m^3)") /
+                        (section * row.at("Time step size (s)")));
+  const double bound = dim == 2 ? 0.02 : 0.08; // of seven leaves, of three and a half
+  if (Utilities::MPI::this_mpi_process(comm) == 0) // for a person
+    std::cout << dim << "D through a channel: lost " << lost << ", fastest " << fastest << std::endl;
+  out() << dim << "D through a channel: speed " << (std::abs(fastest - 1) < 0.02 ? "as Poiseuille's" : "OFF")
+        << ", won or lost in a step " << (lost < bound ? "little" : "TOO MUCH") << std::endl;
+}
+
 /// Above a pool, in the air until it starts; nothing corrects the volume.
 void
 pour_late(const MPI_Comm &comm)
@@ -212,6 +254,8 @@ start(const int argc, char **argv)
     pour_from_ceiling<2>(comm, level + 1);
     pour_from_ceiling<3>(comm, level);
     pour_straight(comm);
+    pour_through_channel<2>(comm);
+    pour_through_channel<3>(comm);
     pour_late(comm);
     carry<2>(comm, level + 1);
     carry<3>(comm, level);

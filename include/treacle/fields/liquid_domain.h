@@ -71,6 +71,7 @@ namespace treacle
     std::vector<double>        node_mass;      ///< lumped liquid mass (kg), owned nodes
     std::vector<double>        solid_distance; ///< positive outside solids
     std::vector<double>        held_distance;  ///< positive outside solids and emitters
+    std::vector<double>        emitter_distance; ///< positive outside emitters at work; empty in a scene without any
     std::vector<unsigned char> is_emitter_node; ///< in an emitter at work
     /// Bit d is set where component d is prescribed (no slip, free slip, solids,
     /// emitters).
@@ -127,17 +128,6 @@ namespace treacle
     /// Viscosity and density of an active cell.
     void
     find_material(const LocalIndex cell, const State<dim> &state);
-
-    /// Open fraction and solid velocity of a face.
-    void
-    measure_openings(const LocalIndex face, const double time);
-
-    /// The same of a face that is not all open, with vertices x and held distances there.
-    void
-    measure_held_part(const LocalIndex                   face,
-                      const std::array<Point<dim>, dim> &x,
-                      const VertexValues<dim - 1>       &held,
-                      const double                       time);
 
     /// theta of an owned open face beside an active cell, not yet bounded from below.
     double

@@ -27,6 +27,11 @@ namespace treacle
               const Tensor<1, dim> &away,
               const double          h);
 
+  /// The same with bodies whose signed distance (m) is @p solids; in them the distance goes on as it is before their wall.
+  template <int dim>
+  double
+  beyond_solids(const Distance<dim> &f, const Distance<dim> &solids, const Point<dim> &x, const double h);
+
   /// The same with all sides of a box; outside of it that on the side.
   template <int dim>
   Distance<dim>

@@ -8,19 +8,19 @@
 
 namespace treacle
 {
+  /// The distance (m) to what emitters at work from @p time on fill: they go on in solids whose walls they touch, as liquid does; a
+  /// surface there would lie along the wall.
+  template <int dim>
+  Distance<dim>
+  distance_to_filled(const Scene<dim> &scene, const double h, const double time);
+
   /// How emitters change phi in a step, which is old at a point once what was there has moved.
   template <int dim>
   class EmitterFilling
   {
   public:
     /// Full a time of @p dt before were the emitters that worked @p earlier; h is the finest leaf.
-    EmitterFilling(const Scene<dim> &scene, const double h, const double time, const double earlier, const double dt)
-      : scene(scene)
-      , h(h)
-      , time(time)
-      , earlier(earlier)
-      , dt(dt)
-    {}
+    EmitterFilling(const Scene<dim> &scene, const double h, const double time, const double earlier, const double dt);
 
     struct Phi
     {
@@ -36,7 +36,8 @@ namespace treacle
 
   private:
     const Scene<dim> &scene;
-    const double      h, time, earlier, dt;
+    const double      h, time, dt;
+    Distance<dim>     filled, filled_before;
   };
 } // namespace treacle
 

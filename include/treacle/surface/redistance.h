@@ -11,10 +11,10 @@ namespace treacle
   /// Make phi a signed distance, within @p reach (m) of the surface and clamped
   /// beyond. The surface stays where it is: near it phi is left alone where it is a
   /// distance well enough, and nodes of cut cells are only ever scaled towards a
-  /// gradient of length 1.
+  /// gradient of length 1. The @p solid_distance (m) at the nodes tells which parts of it lie in solids (SurfaceDistance).
   template <int dim>
   void
-  redistance(State<dim> &state, const double reach);
+  redistance(State<dim> &state, const double reach, const std::vector<double> &solid_distance = {});
 } // namespace treacle
 
 #endif

@@ -18,9 +18,12 @@ namespace treacle
   class SurfaceDistance
   {
   public:
-    /// @p surface in the cells of this rank. Collective: each rank receives the facets within
-    /// @p reach (m) of its leaves.
-    SurfaceDistance(const Mesh<dim> &mesh, const Surface<dim> &surface, const double reach);
+    /// @p surface in the cells of this rank. Where the @p solid_distance at their nodes is given, no facet in a solid lies along a side of
+    /// the box: what phi shows there need not be a surface. Collective: each rank receives the facets within @p reach (m) of its leaves.
+    SurfaceDistance(const Mesh<dim>           &mesh,
+                    const Surface<dim>        &surface,
+                    const double               reach,
+                    const std::vector<double> &solid_distance = {});
 
     struct Nearest
     {
@@ -45,7 +48,8 @@ namespace treacle
 
     /// Append those of this rank and of others.
     void
-    gather_facets(const Mesh<dim> &mesh, const Surface<dim> &surface);
+    gather_facets(const Mesh<dim> &mesh, const Surface<dim> &surface, const std::vector<double> &solid_distance);
+
     /// A facet, and its point that is nearest.
     struct Candidate
     {
@@ -60,12 +64,13 @@ namespace treacle
     find_near(const Point<dim> &x, const double within) const;
 
     double
-    distance_beyond_box(const Point<dim> &x, const Point<dim> &nearest, const Facet &facet) const;
+    distance_beyond_box(const Point<dim> &x, const Candidate &candidate) const;
 
     const BoundingBox<dim> box;
     const double           tolerance; ///< of distances and coordinates that are the same (m)
 
     std::vector<Facet> facets;
+    std::vector<bool>  in_solid; ///< a facet
     FacetTree<dim>     tree;
 
     mutable std::vector<Candidate> candidates; ///< scratch

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/fields/face_opening.h>
+#include <treacle/geometry/cut_simplex.h>
+#include <treacle/scene/bodies.h>
+
+#include <algorithm>
+
+namespace treacle
+{
+  template <int dim>
+  typename FaceOpening<dim>::Vertices
+  FaceOpening<dim>::vertices(const LocalIndex f) const
+  {
+    Vertices v;
+    for (unsigned int i = 0; i < dim; ++i)
+      {
+        const LocalIndex node = mesh.face_nodes[f][i];
+        v.x[i]                = mesh.node_position[node];
+        v.solid[i]            = solid_distance[node];
+        v.emitter[i]          = emitter_distance.empty() ? far_away : emitter_distance[node];
+      }
+    return v;
+  }
+
+  template <int dim>
+  double
+  FaceOpening<dim>::poured_fraction(const Vertices &v, const double held) const
+  {
+    if (emitter_distance.empty())
+      return 0;
+    VertexValues<dim - 1> in_solids;
+    for (unsigned int i = 0; i < dim; ++i)
+      in_solids[i] = std::max(v.solid[i], 0.5 * (v.solid[i] - v.emitter[i]));
+    constexpr double rounding = 1e-12;
+    const double     poured   = held - negative_fraction<dim - 1>(in_solids);
+    return poured > rounding ? poured : 0;
+  }
+
+  template <int dim>
+  std::pair<double, double>
+  FaceOpening<dim>::operator()(const LocalIndex f) const
+  {
+    const Vertices        v = vertices(f);
+    VertexValues<dim - 1> open, held;
+    for (unsigned int i = 0; i < dim; ++i)
+      {
+        held[i] = std::min(v.solid[i], v.emitter[i]);
+        open[i] = -held[i];
+      }
+    const bool       is_wall  = mesh.face_side[f] != Mesh<dim>::no_side;
+    constexpr double slit     = 1e-4; // there the least error of what the others carry would shoot
+    const double     fraction = negative_fraction<dim - 1>(open), open_fraction = is_wall || fraction < slit ? 0 : fraction;
+    if (open_fraction == 1)
+      return {1, 0};
+    // at the centroid the flux of a rigid motion is exact, and what the held parts of
+    // a cell's faces carry balances but for the area between them
+    const Point<dim>      centre      = negative_centroid<dim>(v.x, held);
+    const Tensor<1, dim> &normal      = mesh.face_normal[f];
+    const double          held_part   = negative_fraction<dim - 1>(held), poured = poured_fraction(v, held_part);
+    const double          by_emitters = poured > 0 ? scene.emitter_velocity(centre, time) * normal : 0.;
+    if (is_wall) // at rest
+      return {0, poured * by_emitters};
+    if (poured > 0 && poured == held_part)
+      return {open_fraction, by_emitters};
+    const double by_solids = scene.solid_velocity(centre, time) * normal;
+    return {open_fraction, poured > 0 ? by_solids + poured / held_part * (by_emitters - by_solids) : by_solids};
+  }
+
+  template class FaceOpening<2>;
+  template class FaceOpening<3>;
+} // namespace treacle
