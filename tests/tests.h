@@ -11,6 +11,7 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <sstream>
 #include <string>
 #include <thread>
 
@@ -35,19 +36,26 @@ namespace tests
     }
   };
 
+  /// What the first of a group of ranks that are at work beside the first of all has to say.
+  inline std::ostringstream &
+  kept_output()
+  {
+    static std::ostringstream stream;
+    return stream;
+  }
+
   /// The file that the harness compares; only the first rank writes.
   inline std::ostream &
   out()
   {
-    static std::ofstream stream = [] {
-      std::ofstream s;
-      if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-        s.open("output");
-      else
-        s.setstate(std::ios::badbit);
-      return s;
+    static std::ofstream stream;
+    static const bool    is_first = [] {
+      const bool is = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+      if (is)
+        stream.open("output");
+      return is;
     }();
-    return stream;
+    return is_first ? static_cast<std::ostream &>(stream) : kept_output();
   }
 
   /// A barrier in which idle ranks leave the cores to the busy ones.
@@ -60,25 +68,35 @@ namespace tests
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 
-  /// Run on 1, 2 and 3 of the 3 ranks of this program in turn, or on the number of them alone
-  /// that the environment variable TREACLE_TEST_RANKS names.
+  /// Run on the ranks that are to be a group of their own (number of the group); those of number -1 wait.
+  inline void
+  run_in_groups(const int group, const std::function<void(const MPI_Comm &)> &body)
+  {
+    MPI_Comm comm;
+    MPI_Comm_split(MPI_COMM_WORLD, group + 1, dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD), &comm);
+    kept_output().str("");
+    if (group >= 0)
+      {
+        out() << "ranks: " << dealii::Utilities::MPI::n_mpi_processes(comm) << std::endl;
+        body(comm);
+      }
+    MPI_Comm_free(&comm);
+    wait_for_all();
+  }
+
+  /// Run on 1, 2 and 3 of the 3 ranks of this program, or on the number of them alone
+  /// that the environment variable TREACLE_TEST_RANKS names. Runs on 1 and on 2 are at work at the same time.
   inline void
   on_1_2_3_ranks(const std::function<void(const MPI_Comm &)> &body)
   {
-    const int   rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-    const char *only = std::getenv("TREACLE_TEST_RANKS");
-    for (int n = only ? std::atoi(only) : 1; n <= (only ? std::atoi(only) : 3); ++n)
-      {
-        MPI_Comm comm;
-        MPI_Comm_split(MPI_COMM_WORLD, rank < n ? 0 : 1, rank, &comm);
-        if (rank < n)
-          {
-            out() << "ranks: " << n << std::endl;
-            body(comm);
-          }
-        MPI_Comm_free(&comm);
-        wait_for_all();
-      }
+    const int rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+    if (const char *only = std::getenv("TREACLE_TEST_RANKS"))
+      return run_in_groups(rank < std::atoi(only) ? 0 : -1, body);
+    run_in_groups(rank == 0 ? 0 : 1, body);
+    const auto said = dealii::Utilities::MPI::all_gather(MPI_COMM_WORLD, kept_output().str());
+    if (rank == 0)
+      out() << said[1];
+    run_in_groups(0, body);
   }
 } // namespace tests
 
