@@ -90,7 +90,7 @@ start(const int, char **)
     }
   MPI_Comm_free(&two);
   MPI_Barrier(MPI_COMM_WORLD);
-  tests::on_1_2_3_ranks([](const MPI_Comm &comm) {
+  tests::in_turn_on_1_2_3_ranks([](const MPI_Comm &comm) {
     load<2>(comm);
     load<3>(comm);
   });
