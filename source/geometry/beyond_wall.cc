@@ -43,7 +43,7 @@ namespace treacle
     if (phi < -(AtWall::reach + AtWall::touching) * h || phi > farthest * h)
       return phi;
     const double s = solids(x);
-    if (s > AtWall::reach * h)
+    if (s > AtWall::reach * h || (s >= 0 && phi > AtWall::touching * h))
       return phi;
     const Tensor<1, dim> gradient = gradient_of<dim>(solids, x, 0.01 * h);
     const double         slope    = gradient.norm();

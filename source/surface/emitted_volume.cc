@@ -27,10 +27,12 @@ namespace treacle
   EmittedVolume<dim>::is_far(const Vertices &v, const LongestEdge &edge)
   {
     constexpr double alike = 1e-6;
-    return std::all_of(v.begin(), v.end(), [&](const Vertex &a) {
+    const auto is_in_solid = [](const Vertex &a) { return a.psi <= 0; };
+    const auto is_alike    = [&](const Vertex &a) {
       return std::min(std::abs(a.phi.inside), std::abs(a.phi.kept)) > edge.length ||
              std::abs(a.phi.inside - a.phi.kept) < alike * edge.length;
-    });
+    };
+    return std::all_of(v.begin(), v.end(), is_in_solid) || std::all_of(v.begin(), v.end(), is_alike);
   }
 
   template <int dim>

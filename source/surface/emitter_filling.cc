@@ -37,7 +37,11 @@ namespace treacle
     if (!scene.has_solids())
       return emitters;
     const Distance<dim> solids = [&scene, time](const Point<dim> &x) { return scene.solid_distance(x, time); };
-    return [emitters, solids, h](const Point<dim> &x) { return beyond_solids<dim>(emitters, solids, x, h); };
+    constexpr double farthest = 5; // leaves; outside of emitters only what is in solids changes, near their walls
+    return [emitters, solids, h](const Point<dim> &x) {
+      const double distance = emitters(x);
+      return distance > farthest * h ? distance : beyond_solids<dim>(emitters, solids, x, h);
+    };
   }
 
   template <int dim>

@@ -55,7 +55,7 @@ namespace treacle
     double
     after(const Vertices &v, const unsigned int halvings) const;
 
-    /// From where anything flows in.
+    /// From where anything flows in, or in solids.
     static bool
     is_far(const Vertices &v, const LongestEdge &edge);
 
