@@ -72,9 +72,8 @@ namespace treacle
     const double     before = std::max(std::min(old + bulge * h, filled_before(from)), depth);
     const bool       is_skin =
       depth > 0 && old > -h && filled(in_box(from, scene)) > 0;
-    return {std::min(is_skin ? std::max(old, depth) : old, distance),
-            distance,
-            std::max(distance, before)};
+    const double inside = std::max(distance, depth_beyond(x, scene, time)); // where walls bound both, neither has more
+    return {std::min(is_skin ? std::max(old, depth) : old, distance), inside, std::max(inside, before)};
   }
 
 #define INSTANTIATE(dim)                                                                                 \
