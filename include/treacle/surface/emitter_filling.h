@@ -25,7 +25,7 @@ namespace treacle
     struct Phi
     {
       double after;
-      double inside; ///< emitters
+      double inside; ///< emitters, up to walls
       double kept;   ///< inside, what came from there or was there already
     };
 
