@@ -82,9 +82,10 @@ namespace treacle
       liquid_moments<dim>(x, phi, mesh.values(c, solid_distance));
     const VertexValues<dim> held    = mesh.values(c, held_distance);
     const bool              is_open = *std::max_element(held.begin(), held.end()) > 0;
-    dual_distance[c]                = phi[0];
+    double                  at_dual = phi[0];
     for (unsigned int i = 0; i <= dim; ++i)
-      dual_distance[c] += phi[i] * (mesh.cell_gradients[c][i] * (mesh.cell_dual[c] - x[0]));
+      at_dual += phi[i] * (mesh.cell_gradients[c][i] * (mesh.cell_dual[c] - x[0]));
+    dual_distance[c]    = snapped(at_dual, scene.rounding());
     liquid_volume[c]    = moments.volume;
     is_active_cell[c]   = moments.volume > 0;
     is_pressure_cell[c] = is_active_cell[c] && is_open && dual_distance[c] < 0;

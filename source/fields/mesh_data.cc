@@ -6,19 +6,6 @@
 
 namespace treacle
 {
-  namespace
-  {
-    /// A wall along nodes is one, whatever rounding says.
-    template <int dim>
-    void
-    snap_to_nodes(const Mesh<dim> &mesh, std::vector<double> &distance)
-    {
-      for (double &d : distance)
-        if (std::abs(d) < 1e-10 * mesh.finest_size())
-          d = 0;
-    }
-  } // namespace
-
   template <int dim>
   MeshData<dim>::MeshData(const Mesh<dim> &mesh, const Scene<dim> &scene)
     : mesh(mesh)
@@ -29,8 +16,6 @@ namespace treacle
     from_resting.reserve(mesh.node_position.size());
     for (const Point<dim> &x : mesh.node_position)
       from_resting.push_back(scene.resting_solid_distance(x));
-    if (!scene.has_moving_solids())
-      snap_to_nodes(mesh, from_resting);
   }
 
   template <int dim>
@@ -39,11 +24,14 @@ namespace treacle
   {
     if (!gradient_points)
       {
-        Vector half_square(mesh.nodes); // its gradient is x
+        const Point<dim> origin = mesh.middle(); // far from that of the coordinates squares have no digits left
+        Vector           half_square(mesh.nodes);     // its gradient is x
         for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-          half_square.local_element(node) = 0.5 * mesh.node_position[node].square();
+          half_square.local_element(node) = 0.5 * (mesh.node_position[node] - origin).norm_square();
         half_square.update_ghost_values();
         gradient_points = nodal_gradient(mesh, half_square);
+        for (unsigned int d = 0; d < dim; ++d)
+          gradient_points->component[d].add(origin[d]);
       }
     return *gradient_points;
   }
@@ -88,7 +76,6 @@ namespace treacle
         for (LocalIndex node = 0; node < from_all.size(); ++node)
           from_all[node] = std::min(from_all[node],
                                     scene.moving_solid_distance(mesh.node_position[node], time));
-        snap_to_nodes(mesh, from_all);
         last_time = time;
       }
     return from_all;

@@ -4,6 +4,7 @@
 #include <treacle/base/exchange.h>
 #include <treacle/geometry/marching.h>
 #include <treacle/io/cell_parts.h>
+#include <treacle/io/coordinates.h>
 #include <treacle/io/liquid_surface.h>
 
 namespace treacle
@@ -136,8 +137,8 @@ namespace treacle
             }
         for (unsigned int d = 0; d < dim; ++d)
           {
-            result.values[d]     = x[d];
-            result.values[3 + d] = v[d];
+            result.position[d] = x[d];
+            result.velocity[d] = v[d];
           }
         const auto [it, is_new] = index.emplace(result.keys, surface.vertices.size());
         if (is_new)
@@ -225,7 +226,8 @@ namespace treacle
     facets   = send_and_receive(comm, facets);
 
     LiquidSurface<dim> result;
-    result.vertices = weld(vertices);
+    result.vertices   = weld(vertices);
+    result.in_doubles = need_doubles(*state.mesh);
     for (unsigned int r = 0; r < n; ++r)
       {
         const std::vector<std::int32_t> place = places(vertices[r], result.vertices);

@@ -41,10 +41,10 @@ namespace treacle
   }
 
   template <int dim>
-  std::vector<float>
+  std::vector<double>
   positions(const Mesh<dim> &mesh, const std::vector<LocalIndex> &nodes)
   {
-    std::vector<float> x;
+    std::vector<double> x;
     x.reserve(3 * nodes.size());
     for (const LocalIndex node : nodes)
       for (unsigned int d = 0; d < 3; ++d)
@@ -56,13 +56,13 @@ namespace treacle
   node_fields(const State<2> &, const std::vector<LocalIndex> &);
   template std::vector<Field>
   cell_fields(const State<2> &, const LiquidDomain<2> &);
-  template std::vector<float>
+  template std::vector<double>
   positions(const Mesh<2> &, const std::vector<LocalIndex> &);
 
   template std::vector<Field>
   node_fields(const State<3> &, const std::vector<LocalIndex> &);
   template std::vector<Field>
   cell_fields(const State<3> &, const LiquidDomain<3> &);
-  template std::vector<float>
+  template std::vector<double>
   positions(const Mesh<3> &, const std::vector<LocalIndex> &);
 } // namespace treacle

@@ -5,6 +5,7 @@
 #include <treacle/base/exchange.h>
 #include <treacle/base/files.h>
 #include <treacle/io/appended_data.h>
+#include <treacle/io/coordinates.h>
 #include <treacle/io/mesh_fields.h>
 #include <treacle/io/mesh_writer.h>
 #include <treacle/io/xdmf.h>
@@ -71,8 +72,11 @@ namespace treacle
       body += "</PointData>\n<CellData>\n";
       for (const Field &field : cell_fields(state, domain))
         body += data.array(field.name, field.n_components, field.values);
-      body += "</CellData>\n<Points>\n" +
-              data.array("Points", 3, positions(mesh, nodes)) + "</Points>\n<Cells>\n";
+      body += "</CellData>\n<Points>\n";
+      body += as_written(positions(mesh, nodes), need_doubles(mesh), [&](const auto &x) {
+        return data.array("Points", 3, x);
+      });
+      body += "</Points>\n<Cells>\n";
       body += data.array("connectivity", 1, connectivity);
       body += data.array("offsets", 1, offsets);
       body += data.array("types", 1, types) + "</Cells>\n</Piece>\n";
@@ -83,10 +87,11 @@ namespace treacle
     write_pvtu(std::ostream                   &out,
                const std::vector<Field>       &at_nodes,
                const std::vector<Field>       &in_cells,
+               const bool                      in_doubles,
                const std::vector<std::string> &pieces)
     {
-      const auto declare = [&](const std::string &name, const unsigned int n_components) {
-        out << "<PDataArray type=\"Float32\" Name=\"" << name
+      const auto declare = [&](const std::string &name, const unsigned int n_components, const bool is_double = false) {
+        out << "<PDataArray type=\"" << (is_double ? vtk_type<double>() : vtk_type<float>()) << "\" Name=\"" << name
             << "\" NumberOfComponents=\"" << n_components << "\"/>\n";
       };
       out
@@ -99,7 +104,7 @@ namespace treacle
       for (const Field &field : in_cells)
         declare(field.name, field.n_components);
       out << "</PCellData>\n<PPoints>\n";
-      declare("Points", 3);
+      declare("Points", 3, in_doubles);
       out << "</PPoints>\n";
       for (const std::string &piece : pieces)
         out << "<Piece Source=\"" << piece << "\"/>\n";
@@ -145,7 +150,7 @@ namespace treacle
                     write_piece(out, state, domain);
                   }));
       replace_file(comm, directory + "/" + name + ".pvtu", [&](std::ostream &out) {
-        write_pvtu(out, node_fields(state, {}), cell_fields(state, domain), pieces);
+        write_pvtu(out, node_fields(state, {}), cell_fields(state, domain), need_doubles(*state.mesh), pieces);
       });
       write_pvd(comm, directory + "/mesh.pvd", name + ".pvtu", state.time);
     }

@@ -4,6 +4,7 @@
 #include <treacle/base/choice.h>
 #include <treacle/base/files.h>
 #include <treacle/io/appended_data.h>
+#include <treacle/io/coordinates.h>
 #include <treacle/io/liquid_surface.h>
 #include <treacle/io/surface_writer.h>
 
@@ -40,13 +41,23 @@ namespace treacle
 
   namespace
   {
+    /// To a binary file.
+    template <typename Numbers>
+    void
+    write_numbers(std::ostream &out, const Numbers &numbers)
+    {
+      out.write(reinterpret_cast<const char *>(numbers.data()), numbers.size() * sizeof numbers[0]);
+    }
+
     template <int dim>
     void
     write_ply(std::ostream &out, const LiquidSurface<dim> &surface)
     {
       out << "ply\nformat binary_little_endian 1.0\ncomment Treacle\nelement vertex "
           << surface.vertices.size() << '\n';
-      for (const char *name : {"x", "y", "z", "vx", "vy", "vz"})
+      for (const char *name : {"x", "y", "z"})
+        out << "property " << (surface.in_doubles ? "double " : "float ") << name << '\n';
+      for (const char *name : {"vx", "vy", "vz"})
         out << "property float " << name << '\n';
       if (dim == 2)
         out << "element edge " << surface.facets.size()
@@ -56,13 +67,15 @@ namespace treacle
             << "\nproperty list uchar int vertex_indices\n";
       out << "end_header\n";
       for (const auto &vertex : surface.vertices)
-        out.write(reinterpret_cast<const char *>(vertex.values.data()),
-                  sizeof vertex.values);
+        {
+          as_written(vertex.position, surface.in_doubles, [&](const auto &x) { write_numbers(out, x); });
+          write_numbers(out, vertex.velocity);
+        }
       for (const auto &facet : surface.facets)
         {
           if (dim == 3)
             out.put(dim);
-          out.write(reinterpret_cast<const char *>(facet.data()), sizeof facet);
+          write_numbers(out, facet);
         }
     }
 
@@ -70,10 +83,11 @@ namespace treacle
     void
     write_obj(std::ostream &out, const LiquidSurface<dim> &surface)
     {
-      out << std::setprecision(9); // all of a float
+      out << std::setprecision(surface.in_doubles ? 17 : 9); // all of a double or a float
       for (const auto &vertex : surface.vertices)
-        out << "v " << vertex.values[0] << ' ' << vertex.values[1] << ' '
-            << vertex.values[2] << '\n';
+        as_written(vertex.position, surface.in_doubles, [&](const auto &x) {
+          out << "v " << x[0] << ' ' << x[1] << ' ' << x[2] << '\n';
+        });
       for (const auto &facet : surface.facets)
         {
           out << (dim == 2 ? 'l' : 'f');
@@ -87,12 +101,13 @@ namespace treacle
     void
     write_vtp(std::ostream &out, const LiquidSurface<dim> &surface)
     {
-      std::vector<float>        points, velocity;
+      std::vector<double>       points;
+      std::vector<float>        velocity;
       std::vector<std::int32_t> connectivity, offsets;
       for (const auto &vertex : surface.vertices)
         {
-          points.insert(points.end(), vertex.values.begin(), vertex.values.begin() + 3);
-          velocity.insert(velocity.end(), vertex.values.begin() + 3, vertex.values.end());
+          points.insert(points.end(), vertex.position.begin(), vertex.position.end());
+          velocity.insert(velocity.end(), vertex.velocity.begin(), vertex.velocity.end());
         }
       for (const auto &facet : surface.facets)
         {
@@ -105,8 +120,9 @@ namespace treacle
         "<Piece NumberOfPoints=\"" + std::to_string(surface.vertices.size()) +
         "\" NumberOf" + element + "=\"" + std::to_string(surface.facets.size()) + "\">\n";
       body += "<PointData Vectors=\"velocity\">\n" + data.array("velocity", 3, velocity) +
-              "</PointData>\n<Points>\n" + data.array("Points", 3, points) +
-              "</Points>\n";
+              "</PointData>\n<Points>\n";
+      body += as_written(points, surface.in_doubles, [&](const auto &x) { return data.array("Points", 3, x); });
+      body += "</Points>\n";
       body += "<" + element + ">\n" + data.array("connectivity", 1, connectivity);
       body += data.array("offsets", 1, offsets) + "</" + element + ">\n</Piece>\n";
       data.write_file(out, "PolyData", body);

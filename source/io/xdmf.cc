@@ -3,6 +3,7 @@
 
 #include <treacle/base/exchange.h>
 #include <treacle/base/files.h>
+#include <treacle/io/coordinates.h>
 #include <treacle/io/mesh_fields.h>
 #include <treacle/io/xdmf.h>
 
@@ -52,7 +53,9 @@ namespace treacle
           cells.push_back(mesh.nodes->local_to_global(node));
 
       HDF5::File file(path, HDF5::File::FileAccessMode::create, mesh.communicator());
-      write_table(file, "positions", *mesh.nodes, 3, positions(mesh, nodes));
+      as_written(positions(mesh, nodes), need_doubles(mesh), [&](const auto &x) {
+        write_table(file, "positions", *mesh.nodes, 3, x);
+      });
       write_table(file, "cells", *mesh.cells, dim + 1, cells);
       for (const Field &field : node_fields(state, nodes))
         write_table(file, field.name, *mesh.nodes, field.n_components, field.values);
@@ -71,9 +74,10 @@ namespace treacle
       const auto         item = [&](const std::string &array,
                             const auto         n,
                             const unsigned int k,
-                            const char        *type) {
+                            const char        *type,
+                            const unsigned int bytes = 4) {
         out << "<DataItem Dimensions=\"" << n << ' ' << k << "\" NumberType=\"" << type
-            << "\" Precision=\"4\" Format=\"HDF\">" << name << ".h5:/" << array
+            << "\" Precision=\"" << bytes << "\" Format=\"HDF\">" << name << ".h5:/" << array
             << "</DataItem>";
       };
       const auto attribute = [&](const Field &field, const char *where, const auto n) {
@@ -85,7 +89,7 @@ namespace treacle
       };
       out << "<Grid Name=\"" << name << "\">\n<Time Value=\"" << std::setprecision(15)
           << state.time << "\"/>\n<Geometry GeometryType=\"XYZ\">";
-      item("positions", mesh.nodes->size(), 3, "Float");
+      item("positions", mesh.nodes->size(), 3, "Float", need_doubles(mesh) ? 8 : 4);
       out << "</Geometry>\n<Topology TopologyType=\""
           << (dim == 2 ? "Triangle" : "Tetrahedron") << "\" NumberOfElements=\""
           << mesh.cells->size() << "\">";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/geometry/distance.h>
 #include <treacle/geometry/nearest_point.h>
 #include <treacle/mesh/cell_tree.h>
 
@@ -51,7 +52,7 @@ namespace treacle
                           const std::vector<WallFacet>                     &walls,
                           const std::vector<std::vector<BoundingBox<dim>>> &ranks)
     : around(box_around(ranks))
-    , tolerance(1e-12 * around.side_length(0))
+    , tolerance(rounding_in(around))
     , walls(walls)
     , rank_boxes(ranks)
   {

@@ -126,6 +126,7 @@ namespace treacle
                     comm)
     , lower(parameters.lower_corner)
     , upper(parameters.upper_corner)
+    , least_distance(rounding_in<dim>({{lower, upper}}))
     , walls(parse_wall_condition<dim>(parameters.wall_condition))
     , wall_level(parameters.wall_level)
     , material(parameters.material, "Material")
@@ -213,7 +214,7 @@ namespace treacle
   double
   Scene<dim>::liquid_distance(const unsigned int k, const Point<dim> &x) const
   {
-    return liquids[k].shape.signed_distance(x);
+    return snapped(liquids[k].shape.signed_distance(x), least_distance);
   }
 
   template <int dim>
@@ -230,7 +231,7 @@ namespace treacle
     double distance = std::numeric_limits<double>::max();
     for (const Liquid &liquid : liquids)
       distance = std::min(distance, liquid.shape.signed_distance(x));
-    return distance;
+    return snapped(distance, least_distance);
   }
 
   template <int dim>

@@ -47,6 +47,7 @@ namespace treacle
                     const MPI_Comm         &comm)
     : where(where)
     , box(box)
+    , rounding(rounding_in(box))
     , shape(prm.shape, where, comm)
     , level_beside(prm.level)
     , motion(prm.motion, where)
@@ -67,7 +68,7 @@ namespace treacle
   double
   Solid<dim>::signed_distance(const Point<dim> &x, const double t) const
   {
-    return shape.signed_distance(motion.is_moving() ? motion.at(t).at_start(x) : x);
+    return snapped(shape.signed_distance(motion.is_moving() ? motion.at(t).at_start(x) : x), rounding);
   }
 
   template <int dim>

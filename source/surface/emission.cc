@@ -83,7 +83,7 @@ namespace treacle
     settle_markers(State<dim> &state, const Scene<dim> &scene, const double h, const double time, const double dt)
     {
       constexpr double    inside = 0.1, about = 0.25, across = 0.02; // leaves
-      constexpr double    alike = 0.5;                               // cosine of normals
+      constexpr double    alike = 0.45;                              // cosine of normals
       const Distance<dim> distance = distance_to_filled(scene, h, time);
       const auto          is_behind = [&](const Marker<dim> &marker, const Marker<dim> &on) {
         if (!(on.normal * marker.normal > alike))

@@ -8,7 +8,7 @@ namespace treacle
 {
   namespace
   {
-    /// How far a point is beyond the box or in a solid (m), negative in the open.
+    /// How far a point is beyond the box or in a solid (m), negative in the open. What flows along a wall comes from it, not from beyond.
     template <int dim>
     double
     depth_beyond(const Point<dim> &x, const Scene<dim> &scene, const double time)
@@ -16,7 +16,7 @@ namespace treacle
       double depth = -scene.solid_distance(x, time);
       for (unsigned int d = 0; d < dim; ++d)
         depth = std::max({depth, scene.lower_corner()[d] - x[d], x[d] - scene.upper_corner()[d]});
-      return depth;
+      return snapped(depth, scene.rounding());
     }
 
     template <int dim>
@@ -38,9 +38,9 @@ namespace treacle
       return emitters;
     const Distance<dim> solids = [&scene, time](const Point<dim> &x) { return scene.solid_distance(x, time); };
     constexpr double farthest = 5; // leaves; outside of emitters only what is in solids changes, near their walls
-    return [emitters, solids, h](const Point<dim> &x) {
+    return [emitters, solids, h, rounding = scene.rounding()](const Point<dim> &x) {
       const double distance = emitters(x);
-      return distance > farthest * h ? distance : beyond_solids<dim>(emitters, solids, x, h);
+      return distance > farthest * h ? distance : snapped(beyond_solids<dim>(emitters, solids, x, h), rounding);
     };
   }
 

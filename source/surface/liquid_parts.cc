@@ -17,15 +17,15 @@ namespace treacle
     constexpr double no_label = -1;
 
     /// Liquid is thick within so many layers of nodes of one that is deeper than that (leaves): the corners of a thick box are, sheets of
-    /// three leaves are not.
-    constexpr double       deep      = 1.5;
+    /// three leaves are not. A trifle more than where nodes lie.
+    constexpr double       deep      = 1.5001;
     constexpr unsigned int thickness = 3;
 
     /// Layers of nodes around a part that are moved with its surface, and of those that have no part of their own.
     constexpr unsigned int n_layers = 4;
 
-    /// Of emitters, that they hold around them (leaves).
-    constexpr double held = 0.5;
+    /// Of emitters, that they hold around them (leaves). A trifle less than where nodes lie.
+    constexpr double held = 0.4999;
 
     /// What is thin about a body is a part of its own if it has more than so many times what is in the cells between them.
     constexpr double least_volume = 4;

@@ -170,7 +170,7 @@ namespace treacle
   void
   MarkerCorrection<dim>::fill_chords(State<dim> &state, const MeshData<dim> &data, const SmoothLevelSet<dim> &level_set)
   {
-    constexpr double           deep = 1, tolerance = 0.1; // leaves: the nodes of cells that the surface cuts
+    constexpr double           deep = 1.0001, tolerance = 0.1; // leaves: the nodes of cells that the surface cuts, and a trifle more
     const std::vector<double>  height = heights_above_chords(data, state.phi, level_set.gradients(), deep);
     const std::vector<double> &solid_distance = data.solid_distance(state.time);
     for (LocalIndex node = 0; node < height.size(); ++node)

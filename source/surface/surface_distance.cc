@@ -3,6 +3,7 @@
 
 #include <treacle/base/exchange.h>
 #include <treacle/base/work.h>
+#include <treacle/geometry/distance.h>
 #include <treacle/geometry/nearest_point.h>
 #include <treacle/mesh/near_ranks.h>
 #include <treacle/surface/surface_distance.h>
@@ -18,7 +19,7 @@ namespace treacle
                                         const std::vector<double> &solid_distance)
     : reach(reach)
     , box(mesh.box())
-    , tolerance(1e-12 * box.side_length(0))
+    , tolerance(rounding_in(box))
   {
     gather_facets(mesh, surface, solid_distance);
     tree = FacetTree<dim>(facets);
@@ -144,6 +145,23 @@ namespace treacle
     return found;
   }
 
+  namespace
+  {
+    /// Of length 1, or 0 for a facet which is so narrow that @p rounding (m) turns it.
+    template <int dim>
+    Tensor<1, dim>
+    normal_of(const std::array<Point<dim>, dim> &facet, const double rounding)
+    {
+      constexpr double     turned = 0.01;
+      const Tensor<1, dim> a      = area_vector<dim>(facet);
+      double               longest = 0;
+      for (unsigned int i = 0; i < dim; ++i)
+        longest = std::max(longest, facet[i].distance(facet[(i + 1) % dim]));
+      const double height = dim == 2 ? longest : a.norm() / longest; // 0 / 0 is not larger either
+      return turned * height > rounding ? a / a.norm() : Tensor<1, dim>();
+    }
+  } // namespace
+
   template <int dim>
   double
   SurfaceDistance<dim>::distance_beyond_box(const Point<dim> &x, const Candidate &candidate) const
@@ -153,12 +171,14 @@ namespace treacle
     for (unsigned int d = 0; d < dim; ++d)
       on_box = on_box || std::abs(nearest[d] - box.lower_bound(d)) < tolerance ||
                std::abs(nearest[d] - box.upper_bound(d)) < tolerance;
-    const Tensor<1, dim> a = area_vector<dim>(facets[candidate.facet]);
-    if (!on_box || a.norm() == 0)
+    if (!on_box)
       return candidate.distance;
-    const double     above = (x - nearest) * a / a.norm();
-    const Point<dim> foot  = x - above * a / a.norm();
-    if (box.point_inside(foot, 0))
+    const Tensor<1, dim> normal = normal_of<dim>(facets[candidate.facet], tolerance);
+    const double         above  = (x - nearest) * normal;
+    const Point<dim>     foot   = x - above * normal;
+    BoundingBox<dim> around = box;
+    around.extend(tolerance);
+    if (normal == Tensor<1, dim>() || around.point_inside(foot, 0))
       return candidate.distance;
     constexpr double flattest = 0.5; // 30 degrees to the side
     return std::max(std::abs(above), in_solid[candidate.facet] ? flattest * candidate.distance : 0.);

@@ -180,15 +180,16 @@ namespace treacle
   {
     const LiquidParts<dim> parts(data, state.phi, state.time);
     std::vector<double>    wanted = {volume};
+    auto                   now    = parts.measures(state.phi);
     if (parts.size() > 1)
-      wanted = shares<dim>(liquid_volume(data, state.phi, state.time) - volume,
-                           parts.received(parcels()),
-                           parts.measures(state.phi));
+      wanted = shares<dim>(liquid_volume(data, state.phi, state.time) - volume, parts.received(parcels()), now);
     const double        largest = 0.1 * data.mesh.finest_size();
     std::vector<double> offset(parts.size(), 0);
     for (unsigned int round = 0; round < 2 && parts.size() > 0; ++round)
       {
-        const std::vector<double> change = newton_step<dim>(parts.measures(state.phi), wanted, offset, largest);
+        if (round > 0)
+          now = parts.measures(state.phi);
+        const std::vector<double> change = newton_step<dim>(now, wanted, offset, largest);
         state.phi.zero_out_ghost_values();
         for (LocalIndex node = 0; node < data.mesh.n_owned_nodes(); ++node)
           state.phi.local_element(node) += parts.at_node(node, change);

@@ -12,8 +12,8 @@ namespace treacle
 {
   namespace
   {
-    /// How far below the surface, in leaves.
-    constexpr double deep = 2;
+    /// How far below the surface, in leaves, and a trifle more.
+    constexpr double deep = 2.0001;
     /// Weight of the stiffness that q is smoothed with, and of the matrix's diagonal, for where no surface bounds the liquid, as between
     /// liquids in a full box, a constant q moves nothing.
     constexpr double smoothing = 0.1, least = 1e-4;

@@ -5,7 +5,8 @@
 // and the same bytes whatever the number of ranks. An empty surface is a file too.
 // Half spaces that are solid cut it off, on lattice planes and tilted: what remains
 // must be closed, and its area that of a part of the ball and of a disc. A sheet of half a leaf, which
-// P1 functions between nodes show as a net of 81 holes, has none.
+// P1 functions between nodes show as a net of 81 holes, has none. In coordinates of millions of metres the surface is what
+// it is at the origin, and the files say that their points are doubles.
 
 #include <treacle/io/surface_writer.h>
 
@@ -262,6 +263,56 @@ check_sheet(const MPI_Comm &comm)
   tests::out() << (bytes == of_one_rank ? "same file" : "DIFFERENT FILE") << std::endl;
 }
 
+/// Positions (m) of the vertices of a ball that is written as OBJ, from an origin; and whether all formats have doubles.
+std::pair<std::vector<Point<3>>, bool>
+ball_at(const MPI_Comm &comm, const double origin)
+{
+  const auto at = [&](const double x) {
+    std::ostringstream text;
+    text << std::setprecision(17) << origin + x;
+    return text.str() + ", " + text.str() + ", " + text.str() + "\n";
+  };
+  auto parameters = parse<3>("set End time = 0\nsubsection Mesh\nset Surface level = 4\nset Interior level = 4\nend\n"
+                             "subsection Domain\nset Lower corner = " + at(0) + "set Upper corner = " + at(1) +
+                             "end\nsubsection Liquid 1\nset Centre = " + at(0.5) + "end\n",
+                             0);
+  parameters.output_directory    = "far";
+  parameters.checkpoint.interval = 0;
+  for (const auto format : {SurfaceFormat::ply, SurfaceFormat::vtp, SurfaceFormat::obj})
+    {
+      parameters.surface_writer.format = format;
+      parameters.mesh_writer.format    = format == SurfaceFormat::ply ? MeshFormat::xdmf : MeshFormat::vtu;
+      Simulator<3>(comm, parameters, "").run(false);
+    }
+  const auto has = [](const std::string &file, const std::string &text) {
+    return read("far/frames/" + file).find(text) != std::string::npos;
+  };
+  std::istringstream    lines(read("far/frames/surface_00000.obj"));
+  std::vector<Point<3>> x;
+  for (std::string v; lines >> v && v == "v";)
+    {
+      x.emplace_back();
+      lines >> x.back()[0] >> x.back()[1] >> x.back()[2];
+      x.back() -= diagonal_point<3>(origin) - Point<3>();
+    }
+  return {x,
+          has("surface_00000.ply", "property double z") && has("surface_00000.vtp", "Float64") &&
+            has("mesh.xdmf", "Precision=\"8\"") && has("mesh_00000.pvtu", "Float64") &&
+            has("mesh_00000.0000.vtu", "Float64")};
+}
+
+void
+check_far(const MPI_Comm &comm)
+{
+  const auto [near, near_in_doubles] = ball_at(comm, 0);
+  const auto [far, far_in_doubles]   = ball_at(comm, 4.5e6);
+  double most                        = near.size() == far.size() ? 0 : 1;
+  for (unsigned int k = 0; k < std::min(near.size(), far.size()); ++k)
+    most = std::max(most, near[k].distance(far[k]));
+  tests::out() << "far from the origin: " << (most < 1e-6 ? "the same" : "ANOTHER SURFACE") << ", in doubles "
+               << near_in_doubles << " and " << far_in_doubles << std::endl;
+}
+
 void
 start(const int, char **)
 {
@@ -275,6 +326,7 @@ start(const int, char **)
           check_cut<3>(comm, offset, is_tilted);
         }
     check_sheet(comm);
+    check_far(comm);
   });
 }
 

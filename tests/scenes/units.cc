@@ -3,7 +3,8 @@
 
 // What a slump does, and what its solves cost, does not depend on units: a block of a micrometre, or one of any density,
 // is that of a metre once more. (Libraries that take what is below 1e-12 for zero made up to twenty times as many
-// iterations of it, and other figures.) Rock that creeps does what honey does, though momentum spreads over 1e9 leaves in a step.
+// iterations of it, and other figures.) Nor on where it is, nor on how its numbers round: maps have
+// coordinates of millions of metres. Rock that creeps does what honey does, though momentum spreads over 1e9 leaves in a step.
 
 #include "../run_scene.h"
 #include "../tests.h"
@@ -12,10 +13,10 @@ namespace tests::scenes_units
 {
 namespace
 {
-  /// Of length, time and density.
+  /// Of length, time and density, and the origin in metres.
   struct Units
   {
-    double m, s, density;
+    double m, s, density, origin = 0;
   };
 
   /// Of viscosity and weight, @p stiffness times as large: where it is much, what happens does not depend on it.
@@ -31,8 +32,8 @@ namespace
     const auto point = [&](const double across, const double up) {
       std::string text;
       for (unsigned int d = 0; d + 1 < dim; ++d)
-        text += number(across * unit.m) + ", ";
-      return text + number(up * unit.m);
+        text += number(unit.origin + across * unit.m) + ", ";
+      return text + number(unit.origin + up * unit.m);
     };
     return run_scene<dim>(comm,
                           "set End time = " + number((dim == 2 ? 0.5 : 0.1) * unit.s) + "\nset Frame interval = " + number((dim == 2 ? 0.5 : 0.1) * unit.s) +
@@ -55,8 +56,16 @@ namespace
   {
     double most = 0;
     for (const char *const extent : {"Liquid maximum x (m)", dim == 2 ? "Liquid maximum y (m)" : "Liquid maximum z (m)"})
-      most = std::max(most, std::abs(a.at(extent) / (unit.m * b.at(extent)) - 1));
+      most = std::max(most, std::abs((a.at(extent) - unit.origin) / (unit.m * b.at(extent)) - 1));
     return most;
+  }
+
+  /// The kinetic energy in these units.
+  template <int dim>
+  double
+  energy_of_motion(const Row &row, const Units &unit)
+  {
+    return row.at("Kinetic energy (J)") / (unit.density * std::pow(unit.m, dim + 2) / (unit.s * unit.s));
   }
 
   template <int dim>
@@ -65,10 +74,15 @@ namespace
   {
     const Row one = slump<dim>(comm, {1, 1, 1});
     for (const auto &[name, unit] :
-         std::map<std::string, Units>{{"micrometres", {1e-6, 1e-4, 1000}}, {"much mass", {1, 1, 1e14}}})
+         std::map<std::string, Units>{{"micrometres", {1e-6, 1e-4, 1000}},
+                                      {"much mass", {1, 1, 1e14}},
+                                      {"thirds", {1. / 3, 1, 1}},
+                                      {"far from the origin", {1, 1, 1, 4.5e6}}})
       {
         const Row row = slump<dim>(comm, unit);
-        out() << dim << "D, " << name << ": the same " << (difference<dim>(row, unit, one) < 1e-6 ? "yes" : "no")
+        const double energy = energy_of_motion<dim>(row, unit) / energy_of_motion<dim>(one, {1, 1, 1});
+        out() << dim << "D, " << name << ": the same "
+              << (difference<dim>(row, unit, one) < 1e-5 && std::abs(energy - 1) < 1e-6 ? "yes" : "no")
               << ", iterations "
               << (std::abs(row.at("Viscosity iterations") - one.at("Viscosity iterations")) < 2 ? "too" : "not")
               << std::endl;

@@ -20,10 +20,12 @@ namespace treacle
   {
     if (std::is_same_v<T, float>)
       return "Float32";
+    if (std::is_same_v<T, double>)
+      return "Float64";
     if (std::is_same_v<T, std::uint8_t>)
       return "UInt8";
-    static_assert(std::is_same_v<T, float> || std::is_same_v<T, std::uint8_t> ||
-                  std::is_same_v<T, std::int32_t>);
+    static_assert(std::is_same_v<T, float> || std::is_same_v<T, double> ||
+                  std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::int32_t>);
     return "Int32";
   }
 

@@ -20,7 +20,8 @@ namespace treacle
       /// where the surface meets a solid. Of each the keys of the nodes that it is between, and how many quarters of the way;
       /// of a node twice, and 0. The rest is no_key. The last entry says what vanishes there: 1 phi, 2 the solid distance, 3 both.
       std::array<VertexKey, 10> keys;
-      std::array<float, 6>     values; ///< position, velocity; z = 0 in 2D
+      std::array<double, 3>    position; ///< z = 0 in 2D
+      std::array<float, 3>     velocity;
     };
 
     static constexpr VertexKey no_key = ~VertexKey(0);
@@ -28,7 +29,8 @@ namespace treacle
     using Facet = std::array<std::int32_t, dim>;
 
     std::vector<Vertex> vertices;
-    std::vector<Facet>  facets; ///< vertex indices
+    std::vector<Facet>  facets;             ///< vertex indices
+    bool                in_doubles = false; ///< floats have too few digits for the positions
   };
 
   /// The whole surface on rank 0, in an order that no partition changes. Collective.

@@ -28,7 +28,7 @@ namespace treacle
 
   /// Three coordinates a node.
   template <int dim>
-  std::vector<float>
+  std::vector<double>
   positions(const Mesh<dim> &mesh, const std::vector<LocalIndex> &nodes);
 } // namespace treacle
 

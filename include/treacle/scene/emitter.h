@@ -43,7 +43,7 @@ namespace treacle
     double
     signed_distance(const Point<dim> &x) const
     {
-      return distance(x);
+      return snapped(distance(x), rounding);
     }
 
     /// m/s. Throws a UserError where it is not finite.
@@ -64,6 +64,7 @@ namespace treacle
 
   private:
     const Distance<dim>         distance;
+    const double                rounding; // m
     const VectorExpression<dim> velocity_at;
   };
 } // namespace treacle

@@ -68,6 +68,13 @@ namespace treacle
     const Point<dim> &
     upper_corner() const;
 
+    /// How far (m) rounding may take points and distances, which are 0 where they are less.
+    double
+    rounding() const
+    {
+      return least_distance;
+    }
+
     /// Does the liquid stick to this kind of wall? Sides of the box are 2 axis +
     /// (upper ? 1 : 0); all others, see Walls, have the default condition.
     bool
@@ -144,6 +151,7 @@ namespace treacle
     nearest_liquid(const Point<dim> &x) const;
 
     Point<dim>            lower, upper;
+    double                least_distance; // m
     WallConditions<dim>   walls;
     unsigned int          wall_level;
     Material<dim>         material;

@@ -66,6 +66,7 @@ namespace treacle
   private:
     const std::string      where;
     const BoundingBox<dim> box;
+    const double           rounding; // m
     const Shape<dim>       shape;
     const unsigned int     level_beside;
     RigidMotion<dim>       motion;

@@ -13,7 +13,7 @@ namespace treacle
   struct ThinPart
   {
     static constexpr double facing_away = -0.3; ///< cosine of the angle between its sides, or a gap's, at most
-    static constexpr double deep        = 1.5;  ///< leaves, at most, that its nodes are from the surface
+    static constexpr double deep        = 1.5001; ///< leaves, at most, that its nodes are from the surface, and a trifle more
   };
 
   template <int dim>

@@ -21,12 +21,13 @@ namespace treacle
   }
 
   /// Does a marker or point stay in a cell that has @p n and wants @p target of them? Crowded cells, with
-  /// more than twice that, keep a part that depends on places alone.
+  /// more than twice that, keep a part that depends on places in the box alone.
   template <int dim>
   bool
   stays(const Mesh<dim> &mesh, const Point<dim> &x, const double n, const double target)
   {
-    return n <= 2 * target + 2 || scattered_at(x, 1e-3 * mesh.finest_size()) * n < target;
+    const Point<dim> in_box(x - mesh.box().get_boundary_points().first);
+    return n <= 2 * target + 2 || scattered_at(in_box, 1e-3 * mesh.finest_size()) * n < target;
   }
 } // namespace treacle
 
