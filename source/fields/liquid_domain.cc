@@ -82,7 +82,7 @@ namespace treacle
       liquid_moments<dim>(x, phi, mesh.values(c, solid_distance));
     const VertexValues<dim> held    = mesh.values(c, held_distance);
     const bool              is_open = *std::max_element(held.begin(), held.end()) > 0;
-    double                  at_dual = phi[0];
+    double                  at_dual = phi[0]; // phi at the dual centre
     for (unsigned int i = 0; i <= dim; ++i)
       at_dual += phi[i] * (mesh.cell_gradients[c][i] * (mesh.cell_dual[c] - x[0]));
     dual_distance[c]    = snapped(at_dual, scene.rounding());

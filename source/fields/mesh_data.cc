@@ -25,7 +25,7 @@ namespace treacle
     if (!gradient_points)
       {
         const Point<dim> origin = mesh.middle(); // far from that of the coordinates squares have no digits left
-        Vector           half_square(mesh.nodes);     // its gradient is x
+        Vector           half_square(mesh.nodes); // its gradient is x
         for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
           half_square.local_element(node) = 0.5 * (mesh.node_position[node] - origin).norm_square();
         half_square.update_ghost_values();

@@ -152,8 +152,8 @@ namespace treacle
     Tensor<1, dim>
     normal_of(const std::array<Point<dim>, dim> &facet, const double rounding)
     {
-      constexpr double     turned = 0.01;
-      const Tensor<1, dim> a      = area_vector<dim>(facet);
+      constexpr double     turned  = 0.01;
+      const Tensor<1, dim> a       = area_vector<dim>(facet);
       double               longest = 0;
       for (unsigned int i = 0; i < dim; ++i)
         longest = std::max(longest, facet[i].distance(facet[(i + 1) % dim]));
@@ -176,7 +176,7 @@ namespace treacle
     const Tensor<1, dim> normal = normal_of<dim>(facets[candidate.facet], tolerance);
     const double         above  = (x - nearest) * normal;
     const Point<dim>     foot   = x - above * normal;
-    BoundingBox<dim> around = box;
+    BoundingBox<dim>     around = box;
     around.extend(tolerance);
     if (normal == Tensor<1, dim>() || around.point_inside(foot, 0))
       return candidate.distance;
