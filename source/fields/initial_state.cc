@@ -110,13 +110,14 @@ namespace treacle
     if (has_box)
       liquids = beyond_sides<dim>(liquids, BoundingBox<dim>({scene.lower_corner(), scene.upper_corner()}), h);
     const Distance<dim> f = [liquids, &scene](const Point<dim> &x) {
-      return snapped(std::min(liquids(x), scene.emitter_distance(x, 0)), scene.rounding());
+      return std::min(liquids(x), scene.emitter_distance(x, 0));
     };
+    const double rounding = scene.rounding();
     if (!scene.has_solids())
-      return f;
+      return [f, rounding](const Point<dim> &x) { return snapped(f(x), rounding); };
     const Distance<dim> solids = [&scene](const Point<dim> &x) { return scene.solid_distance(x, 0); };
-    return [f, solids, h, &scene](const Point<dim> &x) {
-      return snapped(beyond_solids<dim>(f, solids, x, h), scene.rounding());
+    return [f, solids, h, rounding](const Point<dim> &x) {
+      return snapped(beyond_solids<dim>(f, solids, x, h), rounding);
     };
   }
 

@@ -212,8 +212,12 @@ namespace treacle
   } // namespace
 
   template <int dim>
-  Shape<dim>::Shape(const Parameters &parameters, const std::string &where, const MPI_Comm &comm)
+  Shape<dim>::Shape(const Parameters  &parameters,
+                    const std::string &where,
+                    const double       rounding,
+                    const MPI_Comm    &comm)
     : sign(parameters.invert ? -1 : 1)
+    , rounding(rounding)
     , distance(make<dim>(parameters, where, comm))
   {}
 

@@ -46,8 +46,8 @@ namespace treacle
     , material(prm.material, where, &otherwise)
     , start_time(prm.start_time)
     , stop_time(prm.stop_time)
-    , distance(beyond_sides_of(box, Shape<dim>(prm.shape, where, comm)))
     , rounding(rounding_in(box))
+    , distance(beyond_sides_of(box, Shape<dim>(prm.shape, where, rounding, comm)))
     , velocity_at(prm.velocity, where + "/Velocity")
   {
     require(start_time < stop_time, where + "/Stop time must be later than its Start time.");

@@ -140,7 +140,7 @@ namespace treacle
       {
         const auto       &liquid = parameters.liquids[k];
         const std::string where  = numbered("Liquid", k);
-        liquids.push_back({Shape<dim>(liquid.shape, where, comm),
+        liquids.push_back({Shape<dim>(liquid.shape, where, least_distance, comm),
                            VectorExpression<dim>(liquid.velocity, where + "/Velocity"),
                            Material<dim>(liquid.material, where, &material)});
       }
@@ -214,7 +214,7 @@ namespace treacle
   double
   Scene<dim>::liquid_distance(const unsigned int k, const Point<dim> &x) const
   {
-    return snapped(liquids[k].shape.signed_distance(x), least_distance);
+    return liquids[k].shape.signed_distance(x);
   }
 
   template <int dim>
@@ -231,7 +231,7 @@ namespace treacle
     double distance = std::numeric_limits<double>::max();
     for (const Liquid &liquid : liquids)
       distance = std::min(distance, liquid.shape.signed_distance(x));
-    return snapped(distance, least_distance);
+    return distance;
   }
 
   template <int dim>

@@ -47,8 +47,7 @@ namespace treacle
                     const MPI_Comm         &comm)
     : where(where)
     , box(box)
-    , rounding(rounding_in(box))
-    , shape(prm.shape, where, comm)
+    , shape(prm.shape, where, rounding_in(box), comm)
     , level_beside(prm.level)
     , motion(prm.motion, where)
   {
@@ -68,7 +67,7 @@ namespace treacle
   double
   Solid<dim>::signed_distance(const Point<dim> &x, const double t) const
   {
-    return snapped(shape.signed_distance(motion.is_moving() ? motion.at(t).at_start(x) : x), rounding);
+    return shape.signed_distance(motion.is_moving() ? motion.at(t).at_start(x) : x);
   }
 
   template <int dim>

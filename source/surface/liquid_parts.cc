@@ -41,17 +41,18 @@ namespace treacle
     find_held();
     Vector label = labels_of(phi, thick_nodes(phi));
     number(label);
-    if (size() > 1)
-      {
-        const Measures now = measures(phi);
-        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-          if (const std::size_t k = part[node]; k < size() && now.volume[k] < least_volume * now.shared[k])
-            label.local_element(node) = no_label;
-        spread(label, phi);
-        number(label);
-      }
-    if (size() == 1)
-      std::fill(part.begin(), part.end(), 0);
+    at_first = measures(phi);
+    std::vector<bool> is_none(size() + 1, false);
+    for (std::size_t k = 0; k < size(); ++k)
+      is_none[k] = at_first.volume[k] < least_volume * at_first.shared[k];
+    if (std::find(is_none.begin(), is_none.end(), true) == is_none.end())
+      return;
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      if (is_none[part[node]])
+        label.local_element(node) = no_label;
+    spread(label, phi);
+    number(label);
+    at_first = measures(phi);
   }
 
   template <int dim>
@@ -153,6 +154,8 @@ namespace treacle
       part[node] = label.local_element(node) == no_label ?
                      size() :
                      std::lower_bound(labels.begin(), labels.end(), label.local_element(node)) - labels.begin();
+    if (size() == 1)
+      std::fill(part.begin(), part.end(), 0);
   }
 
   template <int dim>

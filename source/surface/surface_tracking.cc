@@ -180,7 +180,7 @@ namespace treacle
   {
     const LiquidParts<dim> parts(data, state.phi, state.time);
     std::vector<double>    wanted = {volume};
-    auto                   now    = parts.measures(state.phi);
+    auto                   now    = parts.measures();
     if (parts.size() > 1)
       wanted = shares<dim>(liquid_volume(data, state.phi, state.time) - volume, parts.received(parcels()), now);
     const double        largest = 0.1 * data.mesh.finest_size();

@@ -26,7 +26,7 @@ make(const std::string &text)
   parameters.add_parameters(prm);
   prm.leave_subsection();
   prm.parse_input_from_string("subsection Liquid 1\n" + text + "\nend\n");
-  return Shape<dim>(parameters, "Liquid 1");
+  return Shape<dim>(parameters, "Liquid 1", 1e-12);
 }
 
 template <int dim>

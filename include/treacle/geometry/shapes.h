@@ -17,23 +17,24 @@ namespace treacle
   public:
     using Parameters = ShapeParameters<dim>;
 
-    /// @p where names the subsection in messages, as in "Liquid 1". Throws a
-    /// UserError on all ranks where the parameters describe no such body. Collective, for the
-    /// first rank reads files.
+    /// @p where names the subsection in messages, as in "Liquid 1"; distances (m) below
+    /// @p rounding are none. Throws a UserError on all ranks where the parameters describe no such
+    /// body. Collective, for the first rank reads files.
     Shape(const Parameters  &parameters,
           const std::string &where,
+          const double       rounding,
           const MPI_Comm    &comm = MPI_COMM_SELF);
 
-    /// Distance (m) to the boundary, negative inside. Exact, but for
+    /// Distance (m) to the boundary, negative inside. Exact but for rounding, and for
     /// expressions, which are what they are.
     double
     signed_distance(const Point<dim> &x) const
     {
-      return sign * distance(x);
+      return snapped(sign * distance(x), rounding);
     }
 
   private:
-    double        sign;
+    double        sign, rounding; // -, m
     Distance<dim> distance;
   };
 } // namespace treacle

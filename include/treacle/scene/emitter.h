@@ -63,8 +63,8 @@ namespace treacle
     const double        start_time, stop_time; // s
 
   private:
-    const Distance<dim>         distance;
     const double                rounding; // m
+    const Distance<dim>         distance;
     const VectorExpression<dim> velocity_at;
   };
 } // namespace treacle

@@ -66,7 +66,6 @@ namespace treacle
   private:
     const std::string      where;
     const BoundingBox<dim> box;
-    const double           rounding; // m
     const Shape<dim>       shape;
     const unsigned int     level_beside;
     RigidMotion<dim>       motion;

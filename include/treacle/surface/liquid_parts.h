@@ -34,6 +34,13 @@ namespace treacle
       std::vector<double> shared; ///< volume in cells where another one has some too (m^dim)
     };
 
+    /// With the phi that they were found with.
+    const Measures &
+    measures() const
+    {
+      return at_first;
+    }
+
     /// With another @p phi, which is close. Collective.
     Measures
     measures(const Vector &phi) const;
@@ -88,6 +95,7 @@ namespace treacle
     const Mesh<dim>         &mesh;
     const double             time;
     std::vector<double>      labels; ///< of all parts, ascending
+    Measures                 at_first;
     // of nodes, owned and ghost
     std::vector<std::size_t>   part; ///< size(): none
     std::vector<unsigned char> is_held;
