@@ -105,7 +105,7 @@ namespace treacle
       throw_first(state.mesh->communicator(), error);
       clamp(*state.mesh, on_emitter);
       kept.insert(kept.end(), on_emitter.begin(), on_emitter.end());
-      state.markers = std::move(kept);
+      state.markers = to_owners(*state.mesh, kept);
     }
   } // namespace
 

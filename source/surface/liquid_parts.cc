@@ -29,6 +29,23 @@ namespace treacle
 
     /// What is thin about a body is a part of its own if it has more than so many times what is in the cells between them.
     constexpr double least_volume = 4;
+
+    /// Area (m^(dim-1)) and centroid of what is outside solids of a facet of the surface in a cell.
+    template <int dim>
+    std::pair<double, Point<dim>>
+    outside_solids(const std::array<Point<dim>, dim> &facet, const Simplex<dim> &cell, const VertexValues<dim> &solid_distance)
+    {
+      const double area = area_vector<dim>(facet).norm();
+      if (*std::min_element(solid_distance.begin(), solid_distance.end()) > 0)
+        return {area, std::accumulate(facet.begin() + 1, facet.end(), facet[0]) / dim};
+      VertexValues<dim - 1> depth;
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          const VertexValues<dim> lambda = barycentric_coordinates<dim>(cell, facet[i]);
+          depth[i] = -std::inner_product(lambda.begin(), lambda.end(), solid_distance.begin(), 0.);
+        }
+      return {area * negative_fraction<dim - 1>(depth), negative_centroid<dim>(facet, depth)};
+    }
   } // namespace
 
   template <int dim>
@@ -207,8 +224,7 @@ namespace treacle
                   here.shared[k] += in_common * fraction * liquid.volume;
                 });
         for_each_facet(mesh, phi, c, [&](const std::array<Point<dim>, dim> &facet) {
-          const double            area   = area_vector<dim>(facet).norm();
-          const Point<dim>        middle = std::accumulate(facet.begin() + 1, facet.end(), facet[0]) / dim;
+          const auto [area, middle]      = outside_solids<dim>(facet, x, mesh.values(c, solid_distance));
           const VertexValues<dim> lambda = barycentric_coordinates<dim>(x, middle);
           for (unsigned int i = 0; i <= dim; ++i)
             if (const LocalIndex node = mesh.cell_nodes[c][i]; !is_held[node] && part[node] < size())

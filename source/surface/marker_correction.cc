@@ -26,13 +26,28 @@ namespace treacle
     {
       return std::min({a, b, middle}) < 0 && std::max({a, b, middle}) >= 0;
     }
+
+    /// How far from this rank's cells the middles of edges from its nodes are at most (leaves). Collective.
+    template <int dim>
+    double
+    middles_beyond_cells(const Mesh<dim> &mesh)
+    {
+      if (mesh.is_lattice())
+        return 1; // no edge is longer than a leaf of the next larger size
+      double longest = 0;
+      for (LocalIndex c = mesh.n_owned_cells(); c < mesh.cell_nodes.size(); ++c)
+        for (const LocalIndex a : mesh.cell_nodes[c])
+          for (const LocalIndex b : mesh.cell_nodes[c])
+            longest = std::max(longest, mesh.node_position[a].distance(mesh.node_position[b]));
+      return Utilities::MPI::max(longest, mesh.communicator()) / (2 * mesh.finest_size());
+    }
   } // namespace
 
   template <int dim>
   MarkerCorrection<dim>::MarkerCorrection(const State<dim> &state)
     : mesh(*state.mesh)
     , position(positions(state.markers))
-    , markers(mesh, state.markers, MarkerSheet<dim>::reach)
+    , markers(mesh, state.markers, MarkerSheet<dim>::reach, middles_beyond_cells(mesh))
     , of_node(mesh.n_owned_nodes())
   {}
 
@@ -79,7 +94,7 @@ namespace treacle
         if (std::abs(phi) > 3 * h)
           continue;
         if (const auto &about = around(node, h); about.nearest)
-          phi = corrected<dim>(mesh.node_position[node], phi, all(about), *about.nearest, h, true);
+          phi = corrected<dim>(mesh.node_position[node], phi, all(about), *about.nearest, h, true).value_or(phi);
       }
     state.phi.update_ghost_values();
   }
@@ -98,9 +113,9 @@ namespace treacle
     markers.append_around(x, size, about);
     if (about.empty())
       return {};
-    const double old      = 0.5 * (a + b);
-    const double distance = corrected<dim>(x, old, view<dim>(about), nearest<dim>(x, view<dim>(about)), size, false);
-    return distance != old && is_cut(a, b, distance) ? std::make_optional(distance) : std::nullopt;
+    const auto distance =
+      corrected<dim>(x, 0.5 * (a + b), view<dim>(about), nearest<dim>(x, view<dim>(about)), size, false);
+    return distance && is_cut(a, b, *distance) ? distance : std::nullopt;
   }
 
   template <int dim>

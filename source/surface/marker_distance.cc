@@ -39,20 +39,22 @@ namespace treacle
         return -(first.distance + second->distance);
       }
 
-      /// phi, where it was @p old.
-      double
+      /// phi, where it was @p old; none where that is better.
+      std::optional<double>
       distance(const double old, const double h) const
       {
         if (is_beside())
-          return old;
+          return {};
         if (!second)
           return first.distance;
         // Sheets that come closer than markers are exact may have crossed: to trust them would let films grow. But they
         // become thinner: a thread that falls from a ceiling would pour for ever
         if (thickness() <= 0)
-          return thickness() > -thinnest_gap * h ? old : std::min(first.distance, second->distance);
+          return thickness() > -thinnest_gap * h ? std::nullopt :
+                                                   std::make_optional(std::min(first.distance, second->distance));
         const double of_film = std::max(first.distance, second->distance);
-        return thickness() < thinnest_film * h && first.distance <= 0 ? std::max(old, of_film) : of_film;
+        return thickness() < thinnest_film * h && first.distance <= 0 && of_film < old ? std::nullopt :
+                                                                                        std::make_optional(of_film);
       }
     };
 
@@ -98,7 +100,7 @@ namespace treacle
   } // namespace
 
   template <int dim>
-  double
+  std::optional<double>
   corrected(const Point<dim>      &x,
             const double           old,
             const AroundPoint<dim> near,
@@ -109,12 +111,12 @@ namespace treacle
     static thread_local Sides<dim> sides;
     sides.find(x, near, nearest.normal, h);
     if (sides.sum == 0)
-      return old;
-    const double wanted =
+      return {};
+    const std::optional<double> wanted =
       phi_is_known && sides.opposed.empty() && sides.is_smooth ?
         old - sides.residual / sides.sum :
         Sheets<dim>(x, view<dim>(sides.same), view<dim>(sides.opposed), h).distance(old, h);
-    return old + sides.part_corrected() * (wanted - old);
+    return wanted ? std::make_optional(old + sides.part_corrected() * (*wanted - old)) : std::nullopt;
   }
 
   template <int dim>
@@ -132,7 +134,7 @@ namespace treacle
     const Sheets<dim> sheets(x, view<dim>(sides.same), view<dim>(sides.opposed), h);
     if (sheets.is_beside() || sheets.thickness() <= 0)
       return {};
-    return old + sides.part_corrected() * (sheets.distance(old, h) - old);
+    return old + sides.part_corrected() * (sheets.distance(old, h).value_or(old) - old);
   }
 
   template <int dim>
@@ -144,13 +146,13 @@ namespace treacle
     return sides.part_corrected();
   }
 
-  template double
+  template std::optional<double>
   corrected(const Point<2> &, const double, const AroundPoint<2>, const Marker<2> &, const double, const bool);
   template std::optional<double>
   corrected_in_film(const Point<2> &, const double, const AroundPoint<2>, const Marker<2> &, const double);
   template double
   part_corrected(const Point<2> &, const AroundPoint<2>, const Marker<2> &, const double);
-  template double
+  template std::optional<double>
   corrected(const Point<3> &, const double, const AroundPoint<3>, const Marker<3> &, const double, const bool);
   template std::optional<double>
   corrected_in_film(const Point<3> &, const double, const AroundPoint<3>, const Marker<3> &, const double);

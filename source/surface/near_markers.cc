@@ -10,11 +10,12 @@ namespace treacle
   template <int dim>
   NearMarkers<dim>::NearMarkers(const Mesh<dim>                &mesh,
                                 const std::vector<Marker<dim>> &markers,
-                                const double                    reach)
+                                const double                    reach,
+                                const double                    beyond)
     : comm(mesh.communicator())
     , grid(mesh, reach)
   {
-    const NearRanks<dim>                   near(mesh, reach);
+    const NearRanks<dim>                   near(mesh, reach + beyond);
     PerRank<typename Marker<dim>::Numbers> to_rank(near.n_ranks());
     sent.resize(near.n_ranks());
     for (unsigned int k = 0; k < markers.size(); ++k)
@@ -106,13 +107,14 @@ namespace treacle
   template <int dim>
   MarkersWithinLeaves<dim>::MarkersWithinLeaves(const Mesh<dim>                &mesh,
                                                 const std::vector<Marker<dim>> &markers,
-                                                const double                    leaves)
+                                                const double                    leaves,
+                                                const double                    beyond)
     : finest(mesh.finest_size())
   {
-    of_size.emplace_back(mesh, markers, leaves * finest);
+    of_size.emplace_back(mesh, markers, leaves * finest, beyond * finest);
     if (mesh.is_lattice())
       for (double size = 2 * finest; size < 1.5 * mesh.surface_size(); size *= 2)
-        of_size.emplace_back(mesh, markers, leaves * size);
+        of_size.emplace_back(mesh, markers, leaves * size, beyond * size);
   }
 
   template <int dim>

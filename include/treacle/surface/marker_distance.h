@@ -25,9 +25,10 @@ namespace treacle
 
   /// phi at a point from the markers @p near it, if any, where leaves have a size of @p h (m), and it was @p old; those on the far
   /// side of a thin part or of a corner from the @p nearest do not
-  /// count. Where phi is smooth it has only to become zero at them, if @p phi_is_known there: their values.
+  /// count. Where phi is smooth it has only to become zero at them, if @p phi_is_known there: their values. None where they
+  /// do not know better.
   template <int dim>
-  double
+  std::optional<double>
   corrected(const Point<dim>      &x,
             const double           old,
             const AroundPoint<dim> near,

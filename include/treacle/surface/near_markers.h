@@ -32,15 +32,16 @@ namespace treacle
       ->marker;
   }
 
-  /// Finds the markers within a reach of points in this rank's cells.
+  /// Finds the markers within a reach of points in this rank's cells, or beyond these.
   template <int dim>
   class NearMarkers
   {
   public:
-    /// @p markers of this rank; collective.
+    /// @p markers of this rank; points are no further than @p beyond (m) from this rank's cells. Collective.
     NearMarkers(const Mesh<dim>                &mesh,
                 const std::vector<Marker<dim>> &markers,
-                const double                    reach);
+                const double                    reach,
+                const double                    beyond = 0);
 
     /// Of this rank's markers, in their order; 0 before. Collective.
     void
@@ -70,10 +71,11 @@ namespace treacle
   class MarkersWithinLeaves
   {
   public:
-    /// @p markers of this rank; collective.
+    /// @p markers of this rank; points are no further than @p beyond from its cells, in leaves too. Collective.
     MarkersWithinLeaves(const Mesh<dim>                &mesh,
                         const std::vector<Marker<dim>> &markers,
-                        const double                    leaves);
+                        const double                    leaves,
+                        const double                    beyond = 0);
 
     /// See NearMarkers. Collective.
     void

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+// A thin ring and an emitter, both askew, do on several ranks what they do on one, but for rounding: markers of edges that
+// reach out of a rank's cells, and those that an emitter draws over to another rank.
+
+#include "../run_scene.h"
+#include "../tests.h"
+
+namespace tests::scenes_partition
+{
+namespace
+{
+  template <int dim>
+  std::string
+  scene(const std::string &body)
+  {
+    return std::string("set End time = 0.12\nset Frame interval = 0.12\nset Maximum time step = 0.0125\n"
+                       "subsection Mesh\nset Surface level = ") +
+           (dim == 2 ? "4\nset Interior level = 4" : "3\nset Interior level = 2") +
+           "\nset Air level = 2\nend\nsubsection Material\nset Density = 900\nset Viscosity = 2e4\nend\nsubsection Gravity\n"
+           "set Acceleration = 0; " + (dim == 3 ? "0; " : "") + "-9.81\nend\n" + body;
+  }
+
+  /// The largest difference between what liquid has and does on all of @p comm and on one rank, relative. Known to the first rank. Collective.
+  template <int dim>
+  double
+  difference(const MPI_Comm &comm, const std::string &text, const unsigned int n_liquids, const unsigned int n_emitters)
+  {
+    const auto together = run_scene<dim>(comm, text, 0, n_liquids, n_emitters);
+    double     most     = 0;
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      {
+        const auto alone = run_scene<dim>(MPI_COMM_SELF, text, 0, n_liquids, n_emitters);
+        for (const std::string name : {dim == 2 ? "Liquid volume (m^2)" : "Liquid volume (m^3)",
+                                       "Centre of mass x (m)",
+                                       "Kinetic energy (J)",
+                                       "Potential energy (J)"})
+          for (std::size_t k = 0; k < alone.size(); ++k)
+            most = std::max(most, std::abs(together.at(k).at(name) / alone[k].at(name) - 1));
+      }
+    MPI_Barrier(comm);
+    return most;
+  }
+
+  template <int dim>
+  void
+  check(const MPI_Comm &comm)
+  {
+    const std::string ring =
+      dim == 2 ? "subsection Liquid 1\nset Shape = torus\nset Centre = 0.47, 0.52\nset Radius = 0.25\nset Minor radius = 0.05\n"
+                 "set Velocity = 1; 0\nend\n" :
+                 "subsection Liquid 1\nset Shape = torus\nset Centre = 0.304, 0.32, 0.516\nset Radius = 0.247\n"
+                 "set Minor radius = 0.0988\nset Axis = 0.707, -0.1138, 0.8362\nset Velocity = 1; 0; 0\nend\n";
+    const std::string emitter =
+      "subsection Emitter 1\nset Shape = cylinder\nset Radius = " +
+      std::string(dim == 2 ? "0.07\nset Length = 0.14\nset Centre = 0.63, 0.7\nset Axis = 0.5, 1\nset Velocity = -0.66; -1.49" :
+                             "0.119\nset Length = 0.238\nset Centre = 0.467, 0.5, 0.7\nset Axis = 0.5, 0, 1\n"
+                             "set Velocity = -0.73; 0; -1.63") +
+      "\nend\n";
+    const double of_ring = difference<dim>(comm, scene<dim>(ring), 1, 0), of_emitter = difference<dim>(comm, scene<dim>(emitter), 0, 1);
+    const auto   verdict = [](const double most) { return most < 1e-6 ? std::string("the same") : "OFF BY " + std::to_string(most); };
+    out() << dim << "D: thin ring " << verdict(of_ring) << ", emitter " << verdict(of_emitter) << std::endl;
+  }
+
+  void
+  start(const int, char **)
+  {
+    on_1_2_3_ranks([](const MPI_Comm &comm) {
+      check<2>(comm);
+      check<3>(comm);
+    });
+  }
+
+  const Test test("scenes/partition", start);
+} // namespace
+} // namespace tests::scenes_partition
