@@ -62,8 +62,9 @@ namespace treacle
     std::vector<NodeField<dim>> fields = fields_of(state.v);
     fields.push_back({&extension.is_known}); // the part of the point's cell that counts
     const std::vector<double> values = Tracer<dim>(mesh).evaluate(extension.sources, fields);
+    constexpr double rounding = 1e-10; // of the part that counts: no node that the point has nothing of may have its say
     for (unsigned int i = 0; i < extension.nodes.size(); ++i)
-      if (const double *value = &values[i * (dim + 1)]; value[dim] > 0)
+      if (const double *value = &values[i * (dim + 1)]; value[dim] > rounding)
         for (unsigned int d = 0; d < dim; ++d)
           state.v.component[d].local_element(extension.nodes[i]) = value[d] / value[dim];
     // those of the liquid have what is prescribed, or slip
