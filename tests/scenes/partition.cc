@@ -16,8 +16,9 @@ namespace
   std::string
   scene(const std::string &body)
   {
-    return std::string("set End time = 0.12\nset Frame interval = 0.12\nset Maximum time step = 0.0125\n"
-                       "subsection Mesh\nset Surface level = ") +
+    const std::string end = dim == 2 ? "0.12" : "0.05";
+    return "set End time = " + end + "\nset Frame interval = " + end +
+           "\nset Maximum time step = 0.0125\nsubsection Mesh\nset Surface level = " +
            (dim == 2 ? "4\nset Interior level = 4" : "3\nset Interior level = 2") +
            "\nset Air level = 2\nend\nsubsection Material\nset Density = 900\nset Viscosity = 2e4\nend\nsubsection Gravity\n"
            "set Acceleration = 0; " + (dim == 3 ? "0; " : "") + "-9.81\nend\n" + body;
