@@ -40,10 +40,7 @@ namespace treacle
         return {area, std::accumulate(facet.begin() + 1, facet.end(), facet[0]) / dim};
       VertexValues<dim - 1> depth;
       for (unsigned int i = 0; i < dim; ++i)
-        {
-          const VertexValues<dim> lambda = barycentric_coordinates<dim>(cell, facet[i]);
-          depth[i] = -std::inner_product(lambda.begin(), lambda.end(), solid_distance.begin(), 0.);
-        }
+        depth[i] = -interpolate(solid_distance, barycentric_coordinates<dim>(cell, facet[i]));
       return {area * negative_fraction<dim - 1>(depth), negative_centroid<dim>(facet, depth)};
     }
   } // namespace

@@ -43,7 +43,10 @@ namespace
                                        "Kinetic energy (J)",
                                        "Potential energy (J)"})
           for (std::size_t k = 0; k < alone.size(); ++k)
-            most = std::max(most, std::abs(together.at(k).at(name) / alone[k].at(name) - 1));
+            {
+              const double a = together.at(k).at(name), b = alone[k].at(name), error = a == b ? 0. : std::abs(a / b - 1);
+              most = std::isnan(error) ? std::numeric_limits<double>::infinity() : std::max(most, error);
+            }
       }
     MPI_Barrier(comm);
     return most;
