@@ -14,8 +14,9 @@ namespace treacle
     const std::vector<double> &psi    = data.solid_distance(time);
     double                     volume = 0;
     for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
-      volume +=
-        liquid_moments<dim>(mesh.cell_vertices(c), mesh.values(c, phi), mesh.values(c, psi)).volume;
+      if (has_liquid(mesh, phi, c))
+        volume +=
+          liquid_moments<dim>(mesh.cell_vertices(c), mesh.values(c, phi), mesh.values(c, psi)).volume;
     return Utilities::MPI::sum(volume, mesh.communicator());
   }
 

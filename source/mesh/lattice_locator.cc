@@ -17,7 +17,7 @@ namespace treacle
       if (std::abs(r[d]) > std::abs(r[axis]))
         axis = d;
     const bool upper = r[axis] > 0;
-    lattice->cells_over(leaf, 2 * axis + upper, candidates);
+    lattice->cells_over(l, 2 * axis + upper, candidates);
     if (!candidates.empty())
       return;
     Leaf<dim> lower = leaf; // the equal leaf below has filled this face

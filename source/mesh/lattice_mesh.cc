@@ -184,14 +184,22 @@ namespace treacle
                                const unsigned int       face,
                                std::vector<LocalIndex> &result) const
   {
-    result.clear();
     const LocalIndex l = tree->leaf_at(leaf.origin);
+    result.clear();
     if (l != invalid && l < tree->n_owned_leaves())
-      for (unsigned int i = start[2 * dim * l + face]; i < start[2 * dim * l + face + 1]; ++i)
-        result.push_back(i);
+      cells_over(l, face, result);
     else if (const auto it = ghosts_over.find({pack<dim>(leaf.origin), face});
              it != ghosts_over.end())
       result = it->second;
+  }
+
+  template <int dim>
+  void
+  LatticeMesh<dim>::cells_over(const LocalIndex l, const unsigned int face, std::vector<LocalIndex> &result) const
+  {
+    result.clear();
+    for (unsigned int i = start[2 * dim * l + face]; i < start[2 * dim * l + face + 1]; ++i)
+      result.push_back(i);
   }
 
   namespace

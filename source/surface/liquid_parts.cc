@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/fields/flood.h>
+#include <treacle/fields/liquid_volume.h>
 #include <treacle/fields/moved_points.h>
 #include <treacle/geometry/cut_simplex.h>
 #include <treacle/mesh/surface_size.h>
@@ -211,6 +212,8 @@ namespace treacle
     Measures                   here{zeros, zeros, zeros}, all = here;
     for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
       {
+        if (!has_liquid(mesh, phi, c))
+          continue;
         const Simplex<dim> x         = mesh.cell_vertices(c);
         const double       in_common = is_shared(c);
         if (const auto liquid = liquid_moments<dim>(x, mesh.values(c, phi), mesh.values(c, solid_distance)); liquid.volume > 0)

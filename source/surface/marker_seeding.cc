@@ -53,10 +53,10 @@ namespace treacle
       {}
 
       void
-      reseed()
+      reseed(const Guesses &guesses)
       {
         measure_cells();
-        count_markers();
+        count_markers(guesses);
         thin();
         add();
       }
@@ -81,15 +81,15 @@ namespace treacle
       }
 
       void
-      count_markers()
+      count_markers(const Guesses &guesses)
       {
         const Locator<dim>      &locator = mesh.locator();
         std::vector<Marker<dim>> located;
-        for (const Marker<dim> &marker : state.markers)
-          if (const LocalIndex cell = locator.locate_here(marker.position).cell;
+        for (unsigned int k = 0; k < state.markers.size(); ++k)
+          if (const LocalIndex cell = locator.locate_here(state.markers[k].position, guesses.empty() ? invalid : guesses[k]).cell;
               cell != invalid)
             {
-              located.push_back(marker);
+              located.push_back(state.markers[k]);
               cells.push_back(cell);
               count.local_element(cell) += 1;
             }
@@ -262,19 +262,22 @@ namespace treacle
   reseed_markers(State<dim>                 &state,
                  const Scene<dim>           &scene,
                  const SurfaceGeometry<dim> &surface,
-                 const unsigned int          per_cell)
+                 const unsigned int          per_cell,
+                 const Guesses              &cells)
   {
-    Seeding<dim>(state, scene, surface, per_cell).reseed();
+    Seeding<dim>(state, scene, surface, per_cell).reseed(cells);
   }
 
   template void
   reseed_markers(State<2> &,
                  const Scene<2> &,
                  const SurfaceGeometry<2> &,
-                 const unsigned int);
+                 const unsigned int,
+                 const Guesses &);
   template void
   reseed_markers(State<3> &,
                  const Scene<3> &,
                  const SurfaceGeometry<3> &,
-                 const unsigned int);
+                 const unsigned int,
+                 const Guesses &);
 } // namespace treacle

@@ -12,8 +12,13 @@ namespace treacle
     : is_beside(true)
     , surrounds(false)
   {
+    static thread_local std::vector<double> weights;
+    weights.clear();
     for (const NearMarker<dim> *m : markers)
-      normal += weight((x - m->marker.position).norm_square(), h) * m->marker.normal;
+      {
+        weights.push_back(weight((x - m->marker.position).norm_square(), h));
+        normal += weights.back() * m->marker.normal;
+      }
     if (normal.norm() == 0) // all at the very end of the reach
       return;
     normal /= normal.norm();
@@ -21,13 +26,13 @@ namespace treacle
     // exact for a sphere
     double         sum = 0;
     Tensor<1, dim> aside;
-    for (const NearMarker<dim> *m : markers)
+    for (unsigned int k = 0; k < markers.size(); ++k)
       {
-        const Tensor<1, dim> r = x - m->marker.position;
-        const double         w = weight(r.norm_square(), h);
-        sum += w * 0.5 * (1 + m->marker.normal * normal);
-        distance += w * 0.5 * (r * (m->marker.normal + normal));
-        aside += w * (r - (r * normal) * normal);
+        const Marker<dim>   &marker = markers[k]->marker;
+        const Tensor<1, dim> r      = x - marker.position;
+        sum += weights[k] * 0.5 * (1 + marker.normal * normal);
+        distance += weights[k] * 0.5 * (r * (marker.normal + normal));
+        aside += weights[k] * (r - (r * normal) * normal);
       }
     distance /= sum;
     surrounds =

@@ -49,13 +49,26 @@ namespace treacle
         all[place[next++]].value = value;
   }
 
+  namespace
+  {
+    /// Of a cube, or @p shift cubes along x from it: cubes of a row have one key after another.
+    template <int dim>
+    VertexKey
+    key_in_row(LatticePoint<dim> cube, const int shift = 0)
+    {
+      cube[0] += shift;
+      std::reverse(cube.begin(), cube.end());
+      return pack<dim>(cube);
+    }
+  } // namespace
+
   template <int dim>
   void
   NearMarkers<dim>::sort_into_cubes()
   {
     std::vector<std::pair<VertexKey, unsigned int>> order;
     for (unsigned int k = 0; k < all.size(); ++k)
-      order.emplace_back(pack<dim>(grid.cube_of(all[k].marker.position)), k);
+      order.emplace_back(key_in_row<dim>(grid.cube_of(all[k].marker.position)), k);
     // in an order that no partition changes: sums and ties depend on it
     std::sort(order.begin(), order.end(), [&](const auto &a, const auto &b) {
       return a.first != b.first ?
@@ -67,12 +80,18 @@ namespace treacle
     place.resize(all.size());
     for (const auto &[key, k] : order)
       {
-        const unsigned int at = sorted.size();
-        cubes.emplace(key, std::make_pair(at, at)).first->second.second = at + 1;
-        place[k] = at;
+        place[k] = sorted.size();
         sorted.push_back(all[k]);
       }
     all = std::move(sorted);
+    for (unsigned int begin = 0, end = 0; begin < all.size(); begin = end)
+      {
+        while (end < all.size() && order[end].first == order[begin].first)
+          ++end;
+        const LatticePoint<dim> cube = grid.cube_of(all[begin].marker.position);
+        for (int shift = cube[0] > 0 ? -1 : 0; shift <= 1; ++shift)
+          rows.emplace(key_in_row<dim>(cube, shift), std::make_pair(begin, end)).first->second.second = end;
+      }
   }
 
   template <int dim>
@@ -82,14 +101,14 @@ namespace treacle
   {
     const double reach = grid.edge;
     Point<dim>   lower = x, upper = x;
-    for (unsigned int d = 0; d < dim; ++d)
+    for (unsigned int d = 1; d < dim; ++d)
       {
         lower[d] -= reach;
         upper[d] += reach;
       }
     grid.for_each(lower, upper, [&](const LatticePoint<dim> &cube) {
-      const auto found = cubes.find(pack<dim>(cube));
-      if (found == cubes.end())
+      const auto found = rows.find(key_in_row<dim>(cube));
+      if (found == rows.end())
         return;
       // without branches: which ones are near enough cannot be foreseen
       const auto [begin, end] = found->second;

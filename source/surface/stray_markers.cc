@@ -110,8 +110,8 @@ namespace treacle
         , sheets(*state.mesh, not_plain(all), MarkerSheet<dim>::reach)
       {}
 
-      /// Append a marker unless it is a stray one, with phi's normal where phi knows it.
-      void
+      /// Append a marker unless it is a stray one, with phi's normal where phi knows it. Does it stay?
+      bool
       keep(const MarkerInPhi<dim> &at, std::vector<Marker<dim>> &kept)
       {
         const Side side       = side_of(at);
@@ -121,10 +121,11 @@ namespace treacle
             is_on_box(*state.mesh, at.marker.position) ||
             (scene.has_solids() &&
              scene.solid_distance(at.marker.position, state.time) < 0))
-          return;
+          return false;
         kept.push_back(at.marker);
         if (at.is_smooth() && !is_of_film && at.phi.gradient.norm() > 0)
           kept.back().normal = at.phi.gradient / at.phi.gradient.norm();
+        return true;
       }
 
     private:
@@ -156,13 +157,13 @@ namespace treacle
   } // namespace
 
   template <int dim>
-  void
+  Guesses
   remove_stray_markers(State<dim>                 &state,
                        const Scene<dim>           &scene,
-                       const SurfaceGeometry<dim> &surface)
+                       const SurfaceGeometry<dim> &surface,
+                       Guesses                     cells)
   {
     const Mesh<dim> &mesh = *state.mesh;
-    Guesses          cells;
     const auto       samples = surface.level_set.samples(positions(state.markers), cells);
     std::vector<MarkerInPhi<dim>> all;
     unsigned int                  n_lost = 0;
@@ -176,17 +177,20 @@ namespace treacle
       }
     Strays<dim>              strays(state, scene, all);
     std::vector<Marker<dim>> kept;
-    for (const MarkerInPhi<dim> &at : all)
-      strays.keep(at, kept);
+    for (unsigned int k = 0; k < all.size(); ++k)
+      if (strays.keep(all[k], kept))
+        cells[kept.size() - 1] = cells[k];
+    cells.resize(kept.size());
     // where nothing is left, as of a film that withered, there is nothing to follow
     const MPI_Comm &comm = mesh.communicator();
     if (Utilities::MPI::max(surface.facets.facets.empty() ? 0 : 1, comm) > 0)
       check_lost(comm, n_lost, state.markers.size(), state.time);
     state.markers = std::move(kept);
+    return cells;
   }
 
-  template void
-  remove_stray_markers(State<2> &, const Scene<2> &, const SurfaceGeometry<2> &);
-  template void
-  remove_stray_markers(State<3> &, const Scene<3> &, const SurfaceGeometry<3> &);
+  template Guesses
+  remove_stray_markers(State<2> &, const Scene<2> &, const SurfaceGeometry<2> &, Guesses);
+  template Guesses
+  remove_stray_markers(State<3> &, const Scene<3> &, const SurfaceGeometry<3> &, Guesses);
 } // namespace treacle

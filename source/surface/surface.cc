@@ -13,6 +13,8 @@ namespace treacle
     std::unordered_map<std::uint64_t, unsigned int> index;
     for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
       {
+        if (!is_cut(mesh, phi, c))
+          continue;
         const auto values = mesh.values(c, phi);
         const auto facets = surface_facets<dim>(values);
         for (unsigned int k = 0; k < facets.n; ++k)

@@ -86,9 +86,9 @@ namespace treacle
     close_air_pockets(state, data, dt, reach);
     // seeds settle on the smooth surface, where phi shows none on facets: these must be right in the mean, and only these
     const auto smooth = surface_of(state);
-    remove_stray_markers(state, data.scene, *smooth);
+    const Guesses cells = remove_stray_markers(state, data.scene, *smooth, markers.cells(state));
     markers.fill_chords(state, data, smooth->level_set);
-    reseed(state, data.scene, *smooth);
+    reseed(state, data.scene, *smooth, cells);
   }
 
   template <int dim>
@@ -107,10 +107,11 @@ namespace treacle
   void
   SurfaceTracking<dim>::reseed(State<dim>                 &state,
                                const Scene<dim>           &scene,
-                               const SurfaceGeometry<dim> &surface) const
+                               const SurfaceGeometry<dim> &surface,
+                               const Guesses              &cells) const
   {
     if (has_markers())
-      reseed_markers(state, scene, surface, prm.markers_per_cell);
+      reseed_markers(state, scene, surface, prm.markers_per_cell, cells);
     else
       state.markers.clear();
   }

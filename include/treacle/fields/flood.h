@@ -75,6 +75,8 @@ namespace treacle
     void
     hear_from_ghosts()
     {
+      if (label.get_partitioner()->n_ghost_indices() == 0)
+        return;
       for (const LocalIndex i : members)
         for_each_neighbour(i, [&](const LocalIndex other) {
           const double theirs = label.local_element(other);

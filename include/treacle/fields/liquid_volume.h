@@ -8,6 +8,17 @@
 
 namespace treacle
 {
+  /// Is there any in a cell, but for solids? Most have none.
+  template <int dim>
+  bool
+  has_liquid(const Mesh<dim> &mesh, const Vector &phi, const LocalIndex cell)
+  {
+    for (const LocalIndex node : mesh.cell_nodes[cell])
+      if (phi.local_element(node) < 0)
+        return true;
+    return false;
+  }
+
   /// Volume of { phi < 0 } outside solids over all ranks (m^dim); @p phi with
   /// up-to-date ghosts.
   template <int dim>

@@ -11,7 +11,7 @@
 
 namespace treacle
 {
-  /// A binary tree of flat discs around facets (2D: segments, 3D: triangles), to look at the facets
+  /// A tree of flat discs around facets (2D: segments, 3D: triangles), to look at the facets
   /// near a point, nearer discs first. A disc lies along the surface, so that from beside it many
   /// fewer come into question than boxes would; and of Boost's R-tree, which finds the k nearest
   /// boxes, it is known only afterwards how many it takes for the nearest facet.
@@ -33,74 +33,97 @@ namespace treacle
     {
       if (nodes.empty())
         return;
-      std::array<Entry, 64> stack;
-      unsigned int          n = 0;
-      stack[n++]              = {0, squared_distance(nodes[0], x)};
+      constexpr float        rounding = 1e-6; // of single precision, and more
+      float                  farthest = 1;
+      std::array<float, dim> r;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          r[d]     = (x[d] - origin[d]) / extent;
+          farthest = std::max(farthest, std::abs(r[d]));
+        }
+      const auto within = [&](const float square) {
+        return square <= (1 + 10 * rounding) * (radius / extent) * (radius / extent);
+      };
+      std::array<Entry, 4 * 16> stack; // three of four wait on each level
+      unsigned int              n = 0;
+      stack[n++]                  = {0, false, 0};
       while (n > 0)
         {
           const Entry entry = stack[--n];
-          if (entry.squared_distance > radius * radius)
+          if (!within(entry.square))
             continue;
-          const Node &node = nodes[entry.node];
-          for (unsigned int k = node.begin; k < node.end; ++k)
-            radius = visit(order[k]);
-          if (node.begin < node.end)
-            continue;
-          // without branches: which one is nearer cannot be foreseen
-          const std::array<Entry, 2> children = {
-            {{entry.node + 1, squared_distance(nodes[entry.node + 1], x)},
-             {node.second, squared_distance(nodes[node.second], x)}}};
-          const bool far = children[0].squared_distance <= children[1].squared_distance;
-          for (const bool k : {far, !far})
+          if (entry.is_facet)
             {
-              stack[n] = children[k];
-              n += children[k].squared_distance <= radius * radius;
+              radius = visit(entry.child);
+              continue;
             }
+          const Node        &node    = nodes[entry.child];
+          const Four         squares = squared_distances(node, r, rounding * farthest);
+          const unsigned int first   = n;
+          for (unsigned int k = 0; k < node.n; ++k)
+            if (within(squares[k]))
+              {
+                unsigned int place = n++;
+                for (; place > first && stack[place - 1].square < squares[k]; --place)
+                  stack[place] = stack[place - 1];
+                stack[place] = {node.child[k], node.is_facet[k], squares[k]};
+              }
         }
     }
 
   private:
-    /// A disc (3D), or a rectangle, with all of its facets in it.
+    using Four = std::array<float, 4>;
+
+    /// Four discs (3D), or rectangles, each of a facet or of another node with all that is below it; in single precision, for what
+    /// counts is how many of them the caches hold. Lengths are in extents.
     struct Node
     {
-      Point<dim>     centre;
-      Tensor<1, dim> normal;
-      double         radius, half_thickness; ///< across the normal and along it (m)
-      unsigned int   begin, end;             ///< of a leaf in order; else equal
-      unsigned int   second;                 ///< child; the first is the next node
+      std::array<Four, dim>       centre; ///< from the origin
+      std::array<Four, dim>       normal;
+      Four                        radius, half_thickness; ///< across the normal and along it
+      std::array<unsigned int, 4> child;
+      std::array<bool, 4>         is_facet;
+      unsigned int                n; ///< discs that there are
     };
 
     struct Entry
     {
-      unsigned int node;
-      double       squared_distance;
+      unsigned int child;
+      bool         is_facet;
+      float        square; ///< of the distance
     };
 
-    static double
-    squared_distance(const Node &node, const Point<dim> &x)
+    /// Of a point @p r from the origin, less what @p rounding may add.
+    static Four
+    squared_distances(const Node &node, const std::array<float, dim> &r, const float rounding)
     {
-      const Tensor<1, dim> w      = x - node.centre;
-      const double         along  = std::abs(w * node.normal);
-      const double         across = std::sqrt(std::max(0., w * w - along * along));
-      const double         above  = std::max(0., along - node.half_thickness);
-      const double         beside = std::max(0., across - node.radius);
-      return above * above + beside * beside;
+      Four along{}, across{}, result;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int k = 0; k < 4; ++k)
+          along[k] += (r[d] - node.centre[d][k]) * node.normal[d][k];
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int k = 0; k < 4; ++k)
+          {
+            const float w = (r[d] - node.centre[d][k]) - along[k] * node.normal[d][k];
+            across[k] += w * w;
+          }
+      for (unsigned int k = 0; k < 4; ++k)
+        {
+          const float above  = std::abs(along[k]) - node.half_thickness[k] - rounding;
+          const float beside = std::sqrt(across[k]) - node.radius[k] - rounding;
+          // twice what is positive of each, without a branch: the compiler takes four at once
+          const float a = above + std::abs(above), b = beside + std::abs(beside);
+          result[k]     = 0.25f * (a * a + b * b);
+        }
+      return result;
     }
 
-    /// The disc around the facets order[begin] to order[end - 1], and the axis along which they
-    /// extend furthest.
-    std::pair<Node, unsigned int>
-    around(const std::vector<Facet> &facets, const unsigned int begin, const unsigned int end) const;
+    /// Appends nodes.
+    class Builder;
 
-    /// Append the tree of the facets order[begin] to order[end - 1].
-    void
-    build(const std::vector<Facet>      &facets,
-          const std::vector<Point<dim>> &sum_of_vertices,
-          const unsigned int             begin,
-          const unsigned int             end);
-
-    std::vector<Node>         nodes; ///< depth first
-    std::vector<unsigned int> order; ///< facets, those of a leaf together
+    Point<dim>        origin; ///< the middle of them all
+    double            extent; ///< of them all from there, along an axis (m)
+    std::vector<Node> nodes;      ///< depth first
   };
 } // namespace treacle
 

@@ -42,6 +42,10 @@ namespace treacle
                const unsigned int       face,
                std::vector<LocalIndex> &result) const;
 
+    /// The same of an owned leaf, the @p l-th.
+    void
+    cells_over(const LocalIndex l, const unsigned int face, std::vector<LocalIndex> &result) const;
+
     /// Boxes around the cells on owned leaves.
     std::vector<BoundingBox<dim>>
     covering_boxes() const;

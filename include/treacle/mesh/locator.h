@@ -56,24 +56,20 @@ namespace treacle
     Location<dim>
     locate(const Point<dim> &x, const LocalIndex guess) const
     {
-      ++Work::here().points_located;
-      constexpr unsigned int longest = 12;
-      LocalIndex             cell    = guess;
-      for (unsigned int k = 0; k < longest && cell < mesh.n_owned_cells(); ++k)
-        {
-          const Location<dim> location = in_cell(cell, x);
-          const auto          least =
-            std::min_element(location.lambda.begin(), location.lambda.end());
-          if (*least > -1e-12)
-            return location;
-          cell = neighbours[cell][least - location.lambda.begin()];
-        }
-      return locate(x);
+      const Location<dim> location = walk(x, guess);
+      return location.cell == invalid ? locate(x) : location;
     }
 
     /// The cell of this rank, which is known to own the point.
     virtual Location<dim>
     locate_here(const Point<dim> &x) const = 0;
+
+    Location<dim>
+    locate_here(const Point<dim> &x, const LocalIndex guess) const
+    {
+      const Location<dim> location = walk(x, guess);
+      return location.cell == invalid ? locate_here(x) : location;
+    }
 
     struct Owner
     {
@@ -125,6 +121,23 @@ namespace treacle
     mutable std::vector<LocalIndex> candidates;
 
   private:
+    /// Not found, or found in an owned cell.
+    Location<dim>
+    walk(const Point<dim> &x, LocalIndex cell) const
+    {
+      ++Work::here().points_located;
+      constexpr unsigned int longest = 12;
+      for (unsigned int k = 0; k < longest && cell < mesh.n_owned_cells(); ++k)
+        {
+          const Location<dim> location = in_cell(cell, x);
+          const auto          least    = std::min_element(location.lambda.begin(), location.lambda.end());
+          if (*least > -1e-12)
+            return location;
+          cell = neighbours[cell][least - location.lambda.begin()];
+        }
+      return {};
+    }
+
     /// Of each cell, opposite its nodes; invalid on the box, and beyond the ghost layer.
     std::vector<std::array<LocalIndex, dim + 1>>     neighbours;
     const std::vector<std::vector<BoundingBox<dim>>> boxes; ///< of ranks

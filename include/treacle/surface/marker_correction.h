@@ -30,6 +30,13 @@ namespace treacle
     void
     apply(State<dim> &state);
 
+    /// Where markers that are still those of the state were found, if any was looked for.
+    Guesses
+    cells(const State<dim> &state) const
+    {
+      return state.markers.size() == guesses.size() ? guesses : Guesses();
+    }
+
     /// Between nodes a P1 function is above the distance from a surface that is round or thin, and below it in a crease: a thread
     /// of 0.9, 1.3, 1.8 leaves would have 37, 73, 87 % of its volume, by where it lies. Change phi of the same state about parts
     /// as thin, and edges and creases as sharp as that, so that it is the distance from the markers in the mean over the middles

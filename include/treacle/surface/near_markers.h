@@ -25,11 +25,15 @@ namespace treacle
   const Marker<dim> &
   nearest(const Point<dim> &x, const ArrayView<const NearMarker<dim> *const> markers)
   {
-    const auto distance = [&](const auto *m) { return (x - m->marker.position).norm_square(); };
-    return (*std::min_element(markers.begin(),
-                              markers.end(),
-                              [&](const auto *a, const auto *b) { return distance(a) < distance(b); }))
-      ->marker;
+    const NearMarker<dim> *result = nullptr;
+    double                 least  = std::numeric_limits<double>::max();
+    for (const NearMarker<dim> *m : markers)
+      if (const double square = (x - m->marker.position).norm_square(); square < least)
+        {
+          least  = square;
+          result = m;
+        }
+    return result->marker;
   }
 
   /// Finds the markers within a reach of points in this rank's cells, or beyond these.
@@ -61,7 +65,8 @@ namespace treacle
     std::vector<NearMarker<dim>>                                          all;
     /// In all, of this rank's markers and then of those it was sent.
     std::vector<unsigned int>                                             place;
-    std::unordered_map<VertexKey, std::pair<unsigned int, unsigned int>> cubes; ///< begin, end
+    /// Begin and end in all of what is in a cube and the two beside it along x.
+    std::unordered_map<VertexKey, std::pair<unsigned int, unsigned int>> rows;
   };
 
 

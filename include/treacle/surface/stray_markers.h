@@ -13,12 +13,13 @@ namespace treacle
   /// box, in solids, turned the wrong way, or where a sheet that faces the other way runs
   /// through them; the others take the normal of phi where it is smooth. Those of films a
   /// leaf thick stay up to a leaf away and keep their normals. Throws a UserError on all
-  /// ranks where that leaves too few. Collective.
+  /// ranks where that leaves too few. With guesses for @p cells; those of the markers that stay. Collective.
   template <int dim>
-  void
+  Guesses
   remove_stray_markers(State<dim>                 &state,
                        const Scene<dim>           &scene,
-                       const SurfaceGeometry<dim> &surface);
+                       const SurfaceGeometry<dim> &surface,
+                       Guesses                     cells);
 } // namespace treacle
 
 #endif

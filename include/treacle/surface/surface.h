@@ -67,6 +67,8 @@ namespace treacle
                  const LocalIndex  cell,
                  const Visit      &visit)
   {
+    if (!is_cut(mesh, phi, cell))
+      return;
     const VertexValues<dim> values = mesh.values(cell, phi);
     const Facets<dim>       facets = surface_facets<dim>(values);
     for (unsigned int k = 0; k < facets.n; ++k)

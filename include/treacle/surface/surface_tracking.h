@@ -69,9 +69,9 @@ namespace treacle
       return settle(state, data, volume, parcels);
     }
 
-    /// Markers, if there are to be any, on a surface that has too few.
+    /// Markers, if there are to be any, on a surface that has too few. With guesses for the @p cells of those that there are.
     void
-    reseed(State<dim> &state, const Scene<dim> &scene, const SurfaceGeometry<dim> &surface) const;
+    reseed(State<dim> &state, const Scene<dim> &scene, const SurfaceGeometry<dim> &surface, const Guesses &cells = {}) const;
 
     bool
     keeps_volume() const
