@@ -4,7 +4,7 @@
 #include <treacle/base/exchange.h>
 #include <treacle/base/maximum.h>
 #include <treacle/dynamics/measures.h>
-#include <treacle/fields/gradients.h>
+#include <treacle/fields/strain_rate.h>
 
 namespace treacle
 {
@@ -75,16 +75,7 @@ namespace treacle
               const Tensor<1, dim> g = domain.scene.gravity(x, state.time);
               sums.potential_energy -= mass * (g * (x - domain.scene.lower_corner()));
             });
-
-            const auto add_dissipation = [&](const double part, const Tensor<2, dim> &gradient) {
-              const SymmetricTensor<2, dim> strain_rate = symmetrize(gradient);
-              sums.dissipation += 2 * domain.viscosity[c] * part * volume * strain_rate * strain_rate;
-            };
-            const auto parts = domain.cut_cells.parts(c);
-            for (const auto &part : parts)
-              add_dissipation(part.fraction, part.velocity_gradient(mesh.cell_nodes[c], state.v));
-            if (parts.size() == 0)
-              add_dissipation(1, velocity_gradient(mesh, c, state.v));
+            sums.dissipation += 2 * domain.viscosity[c] * volume * squared_strain_rate(domain, c, state.v);
           }
       throw_first(mesh.communicator(), error);
     }

@@ -77,11 +77,16 @@ namespace treacle
     Pair
     first_guess(const State<dim> &state, const Pair &b) const;
 
+    /// Of what moves, in terms of natural norms: twice the kinetic energy, of the faces before or with x, whichever is more, and twice
+    /// what viscosity takes in the step (J).
+    double
+    energy(const Pair &x) const;
+
     /// Of a residual as measure() leaves it: the norm of the outflow that is left of all cells (m^dim/s).
     double
     outflow_left(const Pair &r, const Pair &y) const;
 
-    /// x to the tolerance times the norm of b, whose square is given; the number of
+    /// x to the tolerance times the norm of b, whose square is given, and times that of what moves; the number of
     /// iterations, nothing where it takes more than @p most.
     std::optional<unsigned int>
     improve(Pair              &x,
@@ -116,6 +121,7 @@ namespace treacle
     Pair                       diagonal_inverse;
     const Inverse              hierarchies, diagonals;
     mutable double             tolerated_outflow = 0; ///< (m^dim/s)
+    mutable double             first_energy      = 0; ///< twice the kinetic energy of u* (J)
     mutable Vector             outflow;               ///< scratch
   };
 } // namespace treacle

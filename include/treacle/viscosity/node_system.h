@@ -48,6 +48,13 @@ namespace treacle
       std::vector<double> strain;   ///< of 2 e:e'
       std::vector<double> gradient; ///< of grad v : grad v'
       Springs             springs{};
+
+      /// Of both terms.
+      double
+      in_cell(const LocalIndex c) const
+      {
+        return (strain.empty() ? 0 : strain[c]) + (gradient.empty() ? 0 : gradient[c]);
+      }
     };
 
     struct Assembled
