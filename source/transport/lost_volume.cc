@@ -206,51 +206,95 @@ namespace treacle
       return result;
     }
 
-    /// Send each part to the owner of the cell at @p offset (m) from the wall, whose volume grows
-    /// if it is a pressure cell; returns those without one. Collective.
+    /// Volume by nodes, and then by the pressure cells around them: vertices of a surface lie on edges, so that what they lose lies just
+    /// between two cells, and by the last digit in one of them.
     template <int dim>
-    std::vector<LostVolume<dim>>
-    add_to_cells(Vector                             &volume,
-                 const LiquidDomain<dim>            &domain,
-                 const std::vector<LostVolume<dim>> &lost,
-                 const double                        offset)
+    class Spreading
     {
-      const Mesh<dim>        &mesh = domain.mesh;
-      const MPI_Comm         &comm = mesh.communicator();
-      std::vector<Point<dim>> x;
-      for (const LostVolume<dim> &part : lost)
-        x.push_back(part.entry + offset * part.outward);
-      const auto         owners = mesh.locator().owners(x);
-      PerRank<Sent<dim>> to_rank(Utilities::MPI::n_mpi_processes(comm));
-      for (unsigned int i = 0; i < lost.size(); ++i)
-        to_rank[owners[i].rank].push_back(packed(owners[i].point, lost[i]));
-      std::vector<LostVolume<dim>> left;
-      for (const auto &received : send_and_receive(comm, to_rank))
-        for (const Sent<dim> &numbers : received)
-          {
-            const auto [point, part] = unpacked<dim>(numbers);
-            const LocalIndex cell    = mesh.locator().locate_here(point).cell;
-            if (domain.is_pressure_cell[cell])
-              volume.local_element(cell) += part.volume;
-            else
-              left.push_back(part);
-          }
-      return left;
-    }
+    public:
+      explicit Spreading(const LiquidDomain<dim> &domain)
+        : domain(domain)
+        , mesh(domain.mesh)
+        , at_nodes(mesh.zeros(mesh.nodes))
+        , around(mesh.nodes)
+      {
+        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+          for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+            around.local_element(node) += weight(mesh.node_cells[k]);
+        around.update_ghost_values();
+      }
+
+      /// Send each part to the owner of the cell at @p offset (m) from the wall; returns what is of nodes without a pressure cell around.
+      /// Collective.
+      std::vector<LostVolume<dim>>
+      add(const std::vector<LostVolume<dim>> &lost, const double offset)
+      {
+        const MPI_Comm         &comm = mesh.communicator();
+        std::vector<Point<dim>> x;
+        for (const LostVolume<dim> &part : lost)
+          x.push_back(part.entry + offset * part.outward);
+        const auto         owners = mesh.locator().owners(x);
+        PerRank<Sent<dim>> to_rank(Utilities::MPI::n_mpi_processes(comm));
+        for (unsigned int i = 0; i < lost.size(); ++i)
+          to_rank[owners[i].rank].push_back(packed(owners[i].point, lost[i]));
+        std::vector<LostVolume<dim>> left;
+        for (const auto &received : send_and_receive(comm, to_rank))
+          for (const Sent<dim> &numbers : received)
+            {
+              auto [point, part] = unpacked<dim>(numbers);
+              const Location<dim> place = mesh.locator().locate_here(point);
+              const double        volume = part.volume;
+              part.volume = 0;
+              for (unsigned int i = 0; i <= dim; ++i)
+                {
+                  const LocalIndex node = mesh.cell_nodes[place.cell][i];
+                  (around.local_element(node) > 0 ? at_nodes.local_element(node) : part.volume) += place.lambda[i] * volume;
+                }
+              if (part.volume > 0)
+                left.push_back(part);
+            }
+        return left;
+      }
+
+      /// Collective.
+      Vector
+      by_cells()
+      {
+        at_nodes.compress(VectorOperation::add);
+        at_nodes.update_ghost_values();
+        Vector volume(mesh.cells);
+        for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+          for (const LocalIndex node : mesh.cell_nodes[c])
+            if (const double all = around.local_element(node); all > 0)
+              volume.local_element(c) += weight(c) / all * at_nodes.local_element(node);
+        volume.update_ghost_values();
+        return volume;
+      }
+
+    private:
+      double
+      weight(const LocalIndex cell) const
+      {
+        return domain.is_pressure_cell[cell] ? domain.liquid_volume[cell] : 0.;
+      }
+
+      const LiquidDomain<dim> &domain;
+      const Mesh<dim>         &mesh;
+      Vector                   at_nodes;
+      Vector                   around; ///< weight of all cells
+    };
   } // namespace
 
   template <int dim>
   Vector
   lost_by_cells(const LiquidDomain<dim> &domain, const std::vector<LostVolume<dim>> &lost)
   {
-    Vector                       volume = domain.mesh.zeros(domain.mesh.cells);
-    std::vector<LostVolume<dim>> left   = lost;
-    const Mesh<dim> &mesh    = domain.mesh;
-    const double     largest = largest_surface_size(mesh);
-    for (double offset = 0.5 * mesh.finest_size(); offset < 3 * largest; offset *= 2)
-      left = add_to_cells(volume, domain, left, offset);
-    volume.compress(VectorOperation::add); // an owner of a leaf does not own all cells over it
-    return volume;
+    Spreading<dim>               spreading(domain);
+    std::vector<LostVolume<dim>> left    = lost;
+    const double                 largest = largest_surface_size(domain.mesh);
+    for (double offset = 0.5 * domain.mesh.finest_size(); offset < 3 * largest; offset *= 2)
+      left = spreading.add(left, offset);
+    return spreading.by_cells();
   }
 
 #define INSTANTIATE(dim)                                                                      \
