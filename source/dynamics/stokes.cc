@@ -19,7 +19,7 @@ namespace treacle
     /// Iterations beyond the tolerance for the sake of the outflow.
     constexpr unsigned int most_further = 8;
     /// Of the right-hand side, below which no residual is asked for.
-    constexpr double rounding = 1e-11;
+    constexpr double rounding = 1e-13;
   } // namespace
 
   template <int dim>

@@ -34,13 +34,9 @@ namespace treacle
       if (nodes.empty())
         return;
       constexpr float        rounding = 1e-6; // of single precision, and more
-      float                  farthest = 1;
       std::array<float, dim> r;
       for (unsigned int d = 0; d < dim; ++d)
-        {
-          r[d]     = (x[d] - origin[d]) / extent;
-          farthest = std::max(farthest, std::abs(r[d]));
-        }
+        r[d] = (x[d] - origin[d]) / extent;
       const auto within = [&](const float square) {
         return square <= (1 + 10 * rounding) * (radius / extent) * (radius / extent);
       };
@@ -58,7 +54,7 @@ namespace treacle
               continue;
             }
           const Node        &node    = nodes[entry.child];
-          const Four         squares = squared_distances(node, r, rounding * farthest);
+          const Four         squares = squared_distances(node, r, rounding * farthest(r));
           const unsigned int first   = n;
           for (unsigned int k = 0; k < node.n; ++k)
             if (within(squares[k]))
@@ -93,6 +89,16 @@ namespace treacle
       float        square; ///< of the distance
     };
 
+    /// What lengths are rounded by: that of a point, and of what all are within.
+    static float
+    farthest(const std::array<float, dim> &r)
+    {
+      float result = 1;
+      for (const float coordinate : r)
+        result = std::max(result, std::abs(coordinate));
+      return result;
+    }
+
     /// Of a point @p r from the origin, less what @p rounding may add.
     static Four
     squared_distances(const Node &node, const std::array<float, dim> &r, const float rounding)
@@ -123,7 +129,7 @@ namespace treacle
 
     Point<dim>        origin; ///< the middle of them all
     double            extent; ///< of them all from there, along an axis (m)
-    std::vector<Node> nodes;      ///< depth first
+    std::vector<Node> nodes;  ///< depth first
   };
 } // namespace treacle
 
