@@ -6,6 +6,7 @@
 
 #include <treacle/base/types.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 

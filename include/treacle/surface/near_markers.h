@@ -10,6 +10,8 @@
 
 #include <deal.II/base/array_view.h>
 
+#include <limits>
+
 namespace treacle
 {
   /// A marker, and a value that belongs to it.
