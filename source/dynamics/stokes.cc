@@ -20,6 +20,18 @@ namespace treacle
     constexpr unsigned int most_further = 8;
     /// Of the right-hand side, below which no residual is asked for.
     constexpr double rounding = 1e-13;
+
+    /// Of the faces, each of which has a @p velocity (face). Collective.
+    template <int dim, typename Velocity>
+    double
+    twice_kinetic_energy(const LiquidDomain<dim> &domain, const Velocity &velocity)
+    {
+      double here = 0;
+      for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
+        if (domain.face_mass[f] > 0)
+          here += domain.face_mass[f] * std::pow(velocity(f), 2);
+      return Utilities::MPI::sum(here, domain.mesh.communicator());
+    }
   } // namespace
 
   template <int dim>
@@ -169,15 +181,12 @@ namespace treacle
     const Mesh<dim> &mesh = domain.mesh;
     NodeVector<dim>  v(mesh.nodes);
     system.to_nodes(x.block(0), v);
-    double kinetic = 0, lost = 0;
-    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
-      if (domain.face_mass[f] > 0)
-        kinetic += domain.face_mass[f] * std::pow(face_velocity(mesh, v, f), 2);
+    double lost = 0;
     for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
       if (const double weight = stiffness.in_cell(c); weight > 0)
         lost += 2 * weight * squared_strain_rate(domain, c, v);
-    const MPI_Comm &comm = mesh.communicator();
-    return std::max(first_energy, Utilities::MPI::sum(kinetic, comm)) + Utilities::MPI::sum(lost, comm);
+    return std::max(first_energy, twice_kinetic_energy(domain, [&](const LocalIndex f) { return face_velocity(mesh, v, f); })) +
+           Utilities::MPI::sum(lost, mesh.communicator());
   }
 
   template <int dim>
@@ -199,9 +208,9 @@ namespace treacle
   {
     // what is prescribed may be all of b, as where a stiff body moves with an emitter, and little of it motion: then on, as far as digits
     // go, until the residual is as small beside the energy of what moves
-    const double tolerated    = std::pow(prm.relative_tolerance, 2);
-    unsigned int n            = 0, n_beside_b = 0;
-    const auto   is_within    = [&](const double square) {
+    const double tolerated = std::pow(prm.relative_tolerance, 2);
+    unsigned int n = 0, n_beside_b = 0;
+    const auto   is_within = [&](const double square) {
       ++n;
       if (!(square <= tolerated * squared_norm))
         return false;
@@ -275,11 +284,8 @@ namespace treacle
     for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
       u.local_element(f) = face_velocity(domain.mesh, state.v, f);
     u.update_ghost_values();
-    first_energy = 0;
-    for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
-      first_energy += domain.face_mass[f] * std::pow(state.u.local_element(f), 2);
-    first_energy          = Utilities::MPI::sum(first_energy, domain.mesh.communicator());
-    tolerated_outflow     = 0.5 * pressure.tolerated_outflow(u);
+    first_energy      = twice_kinetic_energy(domain, [&](const LocalIndex f) { return state.u.local_element(f); });
+    tolerated_outflow = 0.5 * pressure.tolerated_outflow(u);
     const auto iterations = solve(x, b);
     if (!iterations)
       return {};

@@ -185,11 +185,10 @@ namespace treacle
                                std::vector<LocalIndex> &result) const
   {
     const LocalIndex l = tree->leaf_at(leaf.origin);
-    result.clear();
     if (l != invalid && l < tree->n_owned_leaves())
-      cells_over(l, face, result);
-    else if (const auto it = ghosts_over.find({pack<dim>(leaf.origin), face});
-             it != ghosts_over.end())
+      return cells_over(l, face, result);
+    result.clear();
+    if (const auto it = ghosts_over.find({pack<dim>(leaf.origin), face}); it != ghosts_over.end())
       result = it->second;
   }
 

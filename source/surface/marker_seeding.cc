@@ -81,12 +81,13 @@ namespace treacle
       }
 
       void
-      count_markers(const Guesses &guesses)
+      count_markers(Guesses guesses)
       {
+        guesses.resize(state.markers.size(), invalid);
         const Locator<dim>      &locator = mesh.locator();
         std::vector<Marker<dim>> located;
         for (unsigned int k = 0; k < state.markers.size(); ++k)
-          if (const LocalIndex cell = locator.locate_here(state.markers[k].position, guesses.empty() ? invalid : guesses[k]).cell;
+          if (const LocalIndex cell = locator.locate_here(state.markers[k].position, guesses[k]).cell;
               cell != invalid)
             {
               located.push_back(state.markers[k]);

@@ -30,7 +30,7 @@ namespace treacle
     /// radius (m), which is @p radius first and then what @p visit returned last.
     template <typename Visit>
     void
-    search(const Point<dim> &x, double radius, const Visit &visit) const
+    search(const Point<dim> &x, const double radius, const Visit &visit) const
     {
       if (nodes.empty())
         return;
@@ -38,27 +38,29 @@ namespace treacle
       std::array<float, dim> r;
       for (unsigned int d = 0; d < dim; ++d)
         r[d] = (x[d] - origin[d]) / extent;
-      const auto within = [&](const float square) {
-        return square <= (1 + 10 * rounding) * (radius / extent) * (radius / extent);
+      const auto square_of = [&](const double length) -> float {
+        return (1 + 10 * rounding) * (length / extent) * (length / extent);
       };
+      const float               margin = rounding * farthest(r);
+      float                     most   = square_of(radius);
       std::array<Entry, 4 * 16> stack; // three of four wait on each level
       unsigned int              n = 0;
       stack[n++]                  = {0, false, 0};
       while (n > 0)
         {
           const Entry entry = stack[--n];
-          if (!within(entry.square))
+          if (entry.square > most)
             continue;
           if (entry.is_facet)
             {
-              radius = visit(entry.child);
+              most = square_of(visit(entry.child));
               continue;
             }
           const Node        &node    = nodes[entry.child];
-          const Four         squares = squared_distances(node, r, rounding * farthest(r));
+          const Four         squares = squared_distances(node, r, margin);
           const unsigned int first   = n;
           for (unsigned int k = 0; k < node.n; ++k)
-            if (within(squares[k]))
+            if (squares[k] <= most)
               {
                 unsigned int place = n++;
                 for (; place > first && stack[place - 1].square < squares[k]; --place)
