@@ -28,14 +28,15 @@ namespace treacle
     return static_cast<double>(mixed(z) >> 11) * 0x1p-53;
   }
 
-  /// Such a number for a place, by the number of @p size in its coordinates: the same on all ranks.
+  /// Such a number for a place, by the number of @p size in its coordinates: the same on all ranks. Round coordinates, where sides of
+  /// boxes lie, are inside of a size, not between two.
   template <typename Position>
   double
   scattered_at(const Position &x, const double size)
   {
     std::uint64_t place = 0;
     for (unsigned int d = 0; d < Position::dimension; ++d)
-      place = 0x100000001b3ull * place + static_cast<std::int64_t>(std::floor(x[d] / size));
+      place = 0x100000001b3ull * place + static_cast<std::int64_t>(std::floor(x[d] / size + 0.618));
     return scattered(place);
   }
 
