@@ -30,10 +30,7 @@ namespace treacle
     std::array<const NodeVector<dim> *, 3>
     stages(const VelocityInStep<dim> &velocity, const double dt)
     {
-      const auto &v = velocity.after;
-      if (dt < 0)
-        return {{v[4], v[2], v[1]}};
-      return {{v[0], v[2], v[3]}};
+      return {{&velocity.first(dt), velocity.after[2], velocity.after[dt < 0 ? 1 : 3]}};
     }
   } // namespace
 
@@ -119,12 +116,13 @@ namespace treacle
 
   template <int dim>
   std::vector<Point<dim>>
-  Tracer<dim>::trace(const std::vector<Point<dim>> &x,
-                     const VelocityInStep<dim>     &velocity,
-                     const double                   dt,
-                     Guesses                       &guesses) const
+  Tracer<dim>::trace(const std::vector<Point<dim>>     &x,
+                     const VelocityInStep<dim>         &velocity,
+                     const double                       dt,
+                     Guesses                           &guesses,
+                     const std::vector<Tensor<1, dim>> &first) const
   {
-    return locator.clamped(path_ends(x, velocity, dt, guesses));
+    return locator.clamped(path_ends(x, velocity, dt, guesses, first));
   }
 
   template <int dim>
@@ -143,13 +141,16 @@ namespace treacle
 
   template <int dim>
   std::optional<Point<dim>>
-  Tracer<dim>::path_end_here(const Point<dim>          &x,
-                             const VelocityInStep<dim> &velocity,
-                             const double               dt,
-                             LocalIndex                &guess) const
+  Tracer<dim>::path_end_here(const Point<dim>                    &x,
+                             const VelocityInStep<dim>           &velocity,
+                             const double                         dt,
+                             const std::optional<Tensor<1, dim>> &first,
+                             LocalIndex                          &guess) const
   {
+    if (dt == 0)
+      return x;
     const auto v  = stages(velocity, dt);
-    const auto k1 = value_here(x, *v[0], guess);
+    const auto k1 = first ? first : value_here(x, *v[0], guess);
     const auto k2 = k1 ? value_here(x + 0.5 * dt * *k1, *v[1], guess) : k1;
     const auto k3 = k2 ? value_here(x + 0.75 * dt * *k2, *v[2], guess) : k2;
     if (!k3)
@@ -159,19 +160,23 @@ namespace treacle
 
   template <int dim>
   std::vector<Point<dim>>
-  Tracer<dim>::path_ends(const std::vector<Point<dim>> &x,
-                         const VelocityInStep<dim>     &velocity,
-                         const double                   dt,
-                         Guesses                       &guesses) const
+  Tracer<dim>::path_ends(const std::vector<Point<dim>>     &x,
+                         const VelocityInStep<dim>         &velocity,
+                         const double                       dt,
+                         Guesses                           &guesses,
+                         const std::vector<Tensor<1, dim>> &first) const
   {
     guesses.resize(x.size(), invalid);
-    std::vector<Point<dim>>   ends(x.size()), others;
-    std::vector<unsigned int> places;
-    Guesses                   other_guesses;
+    std::vector<Point<dim>>       ends(x.size()), others;
+    std::vector<unsigned int>     places;
+    Guesses                       other_guesses;
+    std::optional<Tensor<1, dim>> begin;
     for (unsigned int i = 0; i < x.size(); ++i)
       {
         LocalIndex guess = guesses[i];
-        if (const auto end = path_end_here(x[i], velocity, dt, guess))
+        if (!first.empty())
+          begin = first[i];
+        if (const auto end = path_end_here(x[i], velocity, dt, begin, guess))
           {
             ends[i]    = *end;
             guesses[i] = guess;

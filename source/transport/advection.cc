@@ -73,8 +73,11 @@ namespace treacle
     , dt(difference.dt)
     , velocity([&] {
       const double reach = dt * maximum_speed(old, domain) + 2 * old.mesh->finest_size();
+      std::optional<SurfaceDivergence<dim>> divergence;
+      if (keeps_volume)
+        divergence.emplace(old.phi, surface.level_set.gradients(), domain);
       return velocity_in_step<dim>(old, domain, difference, reach, [&](const NodeVector<dim> &v) {
-        return surface_velocity(old, domain, v, reach, keeps_volume ? &surface.level_set.gradients() : nullptr);
+        return surface_velocity(old, domain, v, reach, divergence ? &*divergence : nullptr);
       });
     }())
   {}
@@ -179,13 +182,12 @@ namespace treacle
   Advection<dim>::advance_nodes(State<dim> &state, const double reach) const
   {
     const Mesh<dim> &mesh = *state.mesh;
-    Guesses          guesses;
-    if (&mesh == old.mesh.get())
-      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-        guesses.push_back(mesh.node_cells[mesh.node_cell_start[node]]);
+    PathEnds<dim>    ends = ends_in(mesh, velocity.surface[4]);
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      ends.add_node(node);
     const std::vector<Point<dim>> from =
-      Tracer<dim>(*old.mesh).trace(owned_nodes(mesh), velocity.surface, -dt, guesses);
-    const std::vector<double> values = surface.level_set.values(from, guesses);
+      Tracer<dim>(*old.mesh).trace(ends.x, velocity.surface, -dt, ends.cells, ends.velocity);
+    const std::vector<double> values = surface.level_set.values(from, ends.cells);
     std::copy(values.begin(), values.end(), state.phi.begin());
     state.phi.update_ghost_values();
     if (!old.material)
@@ -193,7 +195,7 @@ namespace treacle
     const Carried             carry = carried(
       {{&old.material->density.mean}, {&old.material->viscosity.mean}}, velocity.surface, dt, reach);
     const std::vector<double> material =
-      Tracer<dim>(*old.mesh).evaluate(from, carry.fields, guesses);
+      Tracer<dim>(*old.mesh).evaluate(from, carry.fields, ends.cells);
     state.material.emplace(mesh.nodes);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
@@ -217,12 +219,12 @@ namespace treacle
 
   template <int dim>
   typename Advection<dim>::Paths
-  Advection<dim>::paths_to(const std::vector<Point<dim>> &x, const Carried &now, Guesses &&guesses) const
+  Advection<dim>::paths_to(PathEnds<dim> &&ends, const Carried &now) const
   {
     const Tracer<dim> tracer(*old.mesh);
-    Paths             paths{tracer.trace(x, velocity.carried, -dt, guesses), {}, {}};
-    paths.values = tracer.evaluate(paths.from, now.fields, guesses);
-    paths.cells  = std::move(guesses);
+    Paths             paths{tracer.trace(ends.x, velocity.carried, -dt, ends.cells, ends.velocity), {}, {}};
+    paths.values = tracer.evaluate(paths.from, now.fields, ends.cells);
+    paths.cells  = std::move(ends.cells);
     return paths;
   }
 
@@ -251,17 +253,15 @@ namespace treacle
       for (const LocalIndex node : mesh.face_nodes[f])
         is_needed.local_element(node) = 1;
     is_needed.compress(VectorOperation::add);
-    std::vector<LocalIndex> nodes, guesses;
-    std::vector<Point<dim>> x;
+    std::vector<LocalIndex> nodes;
+    PathEnds<dim>           ends = ends_in(mesh, velocity.carried[4]);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       if (is_needed.local_element(node) > 0)
         {
           nodes.push_back(node);
-          x.push_back(mesh.node_position[node]);
-          if (&mesh == old.mesh.get())
-            guesses.push_back(mesh.node_cells[mesh.node_cell_start[node]]);
+          ends.add_node(node);
         }
-    const std::vector<double> values = change_along(paths_to(x, past.now, std::move(guesses)), past);
+    const std::vector<double> values = change_along(paths_to(std::move(ends), past.now), past);
     NodeVector<dim>           change(mesh.nodes);
     for (unsigned int i = 0; i < nodes.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
@@ -283,20 +283,15 @@ namespace treacle
           return state.phi.local_element(node) <= 0 && state.phi.local_element(node) > -deep;
         });
       });
-    std::vector<Point<dim>> x;
-    Guesses                 guesses;
+    PathEnds<dim> ends = ends_in(mesh, velocity.carried[4]);
     for (const LocalIndex f : faces)
-      {
-        x.push_back(mesh.face_centre[f]);
-        if (&mesh == old.mesh.get())
-          guesses.push_back(std::min(mesh.face_cells[f][0], mesh.face_cells[f][1]));
-      }
+      ends.add_face(f);
     const auto add = [&](const auto begin, const double weight, const std::vector<double> &values) {
       for (unsigned int i = 0; i < values.size(); ++i)
         state.u.local_element(begin[i / dim]) += weight * mesh.face_normal[begin[i / dim]][i % dim] * values[i];
     };
     Carried now   = carried(fields_of(old.v), velocity.carried, dt, reach);
-    Paths   paths = paths_to(x, now, std::move(guesses));
+    Paths   paths = paths_to(std::move(ends), now);
     add(faces.begin(), 1, paths.values);
     if (&mesh == old.mesh.get())
       keep_what_nodes_miss(old, domain, difference, faces, state.u);

@@ -57,11 +57,9 @@ namespace treacle
     for (const LocalIndex f : faces)
       if (domain.is_liquid_face(f))
         {
-          Tensor<1, dim> v;
-          for (const LocalIndex node : mesh.face_nodes[f])
-            v += old.v.value(node) / dim;
-          const double moved = difference.dt * v.norm() / (between_faces * size_at_face(mesh, f));
-          double       kept  = missed(old, f);
+          const double speed = mean_at_face(mesh, old.v, f).norm(),
+                       moved = difference.dt * speed / (between_faces * size_at_face(mesh, f));
+          double kept        = missed(old, f);
           if (remembers)
             kept = difference.now * kept + difference.before * old.before->u->local_element(f);
           u.local_element(f) += std::max(0., 1 - moved) * kept;

@@ -78,214 +78,179 @@ namespace treacle
             return true;
       return false;
     }
-
-    template <int dim>
-    class SurfaceDivergence
-    {
-    public:
-      /// Collective.
-      SurfaceDivergence(const Vector            &phi,
-                        const NodeVector<dim>   &gradient,
-                        const LiquidDomain<dim> &domain)
-        : domain(domain)
-        , mesh(domain.mesh)
-        , mass(mesh.nodes)
-        , diagonal(mesh.nodes)
-        , preconditioner(mesh.nodes)
-      {
-        find_cells(phi, gradient);
-        find_diagonal();
-      }
-
-      /// Collective.
-      void
-      remove_from(NodeVector<dim> &v) const
-      {
-        Vector d(mesh.nodes), q(mesh.nodes);
-        q.update_ghost_values();
-        weigh(v, q, d);
-        q.zero_out_ghost_values();
-        const double norm = d.l2_norm();
-        if (!(norm > 0))
-          return;
-        IterationNumberControl control(most_iterations, tolerance * norm);
-        SolverCG<Vector>       solver(control);
-        solver.solve(Multiplies<Vector>{[this](Vector &r, const Vector &q) {
-                       q.update_ghost_values();
-                       weigh(flow(q), q, r);
-                       q.zero_out_ghost_values();
-                     }},
-                     q,
-                     d,
-                     Multiplies<Vector>{[this](Vector &z, const Vector &r) {
-                       for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-                         z.local_element(node) =
-                           has_weight(node) ?
-                             r.local_element(node) / preconditioner.local_element(node) :
-                             0.;
-                     }});
-        q.update_ghost_values();
-        const NodeVector<dim> change = flow(q);
-        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-          v.set(node, v.value(node) - change.value(node));
-        v.update_ghost_values();
-      }
-
-    private:
-      struct Cell
-      {
-        LocalIndex index;
-        double     volume; ///< of its liquid, over the number of its nodes
-      };
-
-      /// The cells whose divergence counts are those of the nodes that move; theirs weigh
-      /// it, so that it cannot go elsewhere.
-      void
-      find_cells(const Vector &phi, const NodeVector<dim> &gradient)
-      {
-        Vector moves(mesh.nodes), is_apart(mesh.nodes); // of a gap, or in an emitter
-        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-          {
-            const double distance     = phi.local_element(node),
-                         size         = surface_size_at_node(mesh, node);
-            moves.local_element(node) = distance > -deep * size;
-            is_apart.local_element(node) =
-              domain.is_emitter_node[node] || (distance >= 0 && distance < 2 * size &&
-                                               is_in_gap(mesh, phi, gradient, node));
-          }
-        moves.update_ghost_values();
-        is_apart.update_ghost_values();
-        const auto is_set = [](const Vector &mark) {
-          return [&mark](const LocalIndex node) { return mark.local_element(node) > 0; };
-        };
-        std::vector<double> volume(mesh.node_position.size());
-        for (LocalIndex c = 0; c < mesh.cell_nodes.size(); ++c)
-          if (const auto &nodes = mesh.cell_nodes[c];
-              domain.liquid_volume[c] > 0 &&
-              std::any_of(nodes.begin(), nodes.end(), is_set(moves)) &&
-              std::none_of(nodes.begin(), nodes.end(), is_set(is_apart)))
-            {
-              cells.push_back({c, domain.liquid_volume[c] / (dim + 1)});
-              for (const LocalIndex node : nodes)
-                volume[node] += cells.back().volume;
-            }
-        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-          mass.local_element(node) = moves.local_element(node) > 0 ? volume[node] : 0.;
-        mass.update_ghost_values();
-      }
-
-      bool
-      is_free(const LocalIndex node, const unsigned int d) const
-      {
-        return mass.local_element(node) > 0 && !(domain.constrained[node] >> d & 1);
-      }
-
-      bool
-      has_weight(const LocalIndex node) const
-      {
-        return diagonal.local_element(node) > 0;
-      }
-
-      /// Of the matrix, about: the sum of its cells' own. What nothing beside it can move
-      /// has no weight. Smoothing is much the larger part of it where a cell has little liquid.
-      void
-      find_diagonal()
-      {
-        std::vector<double> sum(mesh.node_position.size()), smoothed(sum);
-        for (const Cell &cell : cells)
-          {
-            double free = 0;
-            for (unsigned int i = 0; i <= dim; ++i)
-              for (unsigned int d = 0; d < dim; ++d)
-                if (const LocalIndex node = mesh.cell_nodes[cell.index][i];
-                    is_free(node, d))
-                  free +=
-                    std::pow(cell.volume * mesh.cell_gradients[cell.index][i][d], 2) /
-                    mass.local_element(node);
-            for (unsigned int i = 0; i <= dim; ++i)
-              {
-                sum[mesh.cell_nodes[cell.index][i]] += free;
-                smoothed[mesh.cell_nodes[cell.index][i]] +=
-                  smoothing * (dim + 1) * cell.volume * mesh.cell_gradients[cell.index][i].norm_square();
-              }
-          }
-        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-          {
-            diagonal.local_element(node)       = sum[node];
-            preconditioner.local_element(node) = (1 + least) * sum[node] + smoothed[node];
-          }
-      }
-
-      /// r = B v + (0.1 L + 1e-4 D) q, D the diagonal.
-      void
-      weigh(const NodeVector<dim> &v, const Vector &q, Vector &r) const
-      {
-        std::vector<double> sum(mesh.node_position.size());
-        for (const Cell &cell : cells)
-          {
-            const double         part = trace(velocity_gradient(mesh, cell.index, v));
-            const Tensor<1, dim> g = smoothing * (dim + 1) * cell_gradient(mesh, cell.index, q);
-            for (unsigned int i = 0; i <= dim; ++i)
-              sum[mesh.cell_nodes[cell.index][i]] +=
-                cell.volume * (part + g * mesh.cell_gradients[cell.index][i]);
-          }
-        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-          r.local_element(node) =
-            has_weight(node) ?
-              sum[node] + least * diagonal.local_element(node) * q.local_element(node) :
-              0.;
-      }
-
-      /// M^-1 B^T q, where no component is prescribed.
-      NodeVector<dim>
-      flow(const Vector &q) const
-      {
-        std::vector<Tensor<1, dim>> sum(mesh.node_position.size());
-        for (const Cell &cell : cells)
-          {
-            double whole = 0;
-            for (const LocalIndex node : mesh.cell_nodes[cell.index])
-              whole += q.local_element(node);
-            for (unsigned int i = 0; i <= dim; ++i)
-              sum[mesh.cell_nodes[cell.index][i]] +=
-                cell.volume * whole * mesh.cell_gradients[cell.index][i];
-          }
-        NodeVector<dim> v(mesh.nodes);
-        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-          for (unsigned int d = 0; d < dim; ++d)
-            v.component[d].local_element(node) =
-              is_free(node, d) ? sum[node][d] / mass.local_element(node) : 0.;
-        v.update_ghost_values();
-        return v;
-      }
-
-      const LiquidDomain<dim> &domain;
-      const Mesh<dim>         &mesh;
-      std::vector<Cell>        cells;
-      Vector mass;     ///< liquid of these cells about a node that moves (m^dim)
-      Vector diagonal; ///< without smoothing; positive where a node has a weight
-      Vector preconditioner;
-    };
   } // namespace
 
   template <int dim>
-  void
-  remove_divergence_at_surface(const Vector            &phi,
-                               const NodeVector<dim>   &gradient,
-                               const LiquidDomain<dim> &domain,
-                               NodeVector<dim>         &v)
+  SurfaceDivergence<dim>::SurfaceDivergence(const Vector            &phi,
+                                            const NodeVector<dim>   &gradient,
+                                            const LiquidDomain<dim> &domain)
+    : domain(domain)
+    , mesh(domain.mesh)
+    , flowing(mesh.nodes)
   {
-    SurfaceDivergence<dim>(phi, gradient, domain).remove_from(v);
+    find_cells(phi, gradient);
+    find_diagonal();
   }
 
-  template void
-  remove_divergence_at_surface(const Vector &,
-                               const NodeVector<2> &,
-                               const LiquidDomain<2> &,
-                               NodeVector<2> &);
-  template void
-  remove_divergence_at_surface(const Vector &,
-                               const NodeVector<3> &,
-                               const LiquidDomain<3> &,
-                               NodeVector<3> &);
+  template <int dim>
+  void
+  SurfaceDivergence<dim>::find_cells(const Vector &phi, const NodeVector<dim> &gradient)
+  {
+    Vector moves(mesh.nodes), is_apart(mesh.nodes); // of a gap, or in an emitter
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      {
+        const double distance     = phi.local_element(node),
+                     size         = surface_size_at_node(mesh, node);
+        moves.local_element(node) = distance > -deep * size;
+        is_apart.local_element(node) =
+          domain.is_emitter_node[node] ||
+          (distance >= 0 && distance < 2 * size && is_in_gap(mesh, phi, gradient, node));
+      }
+    moves.update_ghost_values();
+    is_apart.update_ghost_values();
+    const auto is_set = [](const Vector &mark) {
+      return [&mark](const LocalIndex node) { return mark.local_element(node) > 0; };
+    };
+    std::vector<unsigned int> place(mesh.node_position.size(), invalid);
+    for (LocalIndex c = 0; c < mesh.cell_nodes.size(); ++c)
+      if (const auto &of_cell = mesh.cell_nodes[c];
+          domain.liquid_volume[c] > 0 && std::any_of(of_cell.begin(), of_cell.end(), is_set(moves)) &&
+          std::none_of(of_cell.begin(), of_cell.end(), is_set(is_apart)))
+        append(c, place);
+    Vector mass(mesh.nodes); // a node's own rank knows all around it
+    for (const Node &node : nodes)
+      if (node.index < mesh.n_owned_nodes() && moves.local_element(node.index) > 0)
+        mass.local_element(node.index) = node.mass;
+    mass.update_ghost_values();
+    for (Node &node : nodes)
+      node.mass = mass.local_element(node.index);
+    sum.resize(nodes.size());
+    force.resize(nodes.size());
+    velocity.resize(nodes.size());
+  }
+
+  template <int dim>
+  void
+  SurfaceDivergence<dim>::append(const LocalIndex c, std::vector<unsigned int> &place)
+  {
+    Cell cell{{}, domain.liquid_volume[c] / (dim + 1), mesh.cell_gradients[c]};
+    for (unsigned int i = 0; i <= dim; ++i)
+      {
+        const LocalIndex node = mesh.cell_nodes[c][i];
+        if (place[node] == invalid)
+          {
+            place[node] = nodes.size();
+            nodes.push_back({node, 0, 0, 0, domain.constrained[node]});
+          }
+        cell.nodes[i] = place[node];
+        nodes[place[node]].mass += cell.volume;
+      }
+    cells.push_back(cell);
+  }
+
+  template <int dim>
+  void
+  SurfaceDivergence<dim>::find_diagonal()
+  {
+    for (const Cell &cell : cells)
+      {
+        double free = 0;
+        for (unsigned int i = 0; i <= dim; ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            if (const Node &node = nodes[cell.nodes[i]]; is_free(node, d))
+              free += std::pow(cell.volume * cell.gradient[i][d], 2) / node.mass;
+        for (unsigned int i = 0; i <= dim; ++i)
+          {
+            Node &node = nodes[cell.nodes[i]];
+            node.diagonal += free;
+            node.with_smoothing += smoothing * (dim + 1) * cell.volume * cell.gradient[i].norm_square();
+          }
+      }
+    for (Node &node : nodes)
+      node.with_smoothing += (1 + least) * node.diagonal;
+  }
+
+  template <int dim>
+  void
+  SurfaceDivergence<dim>::weigh(const NodeVector<dim> &v, const Vector &q, Vector &r)
+  {
+    std::fill(sum.begin(), sum.end(), 0.);
+    for (unsigned int k = 0; k < nodes.size(); ++k)
+      velocity[k] = v.value(nodes[k].index);
+    for (const Cell &cell : cells)
+      {
+        double         divergence = 0;
+        Tensor<1, dim> g;
+        for (unsigned int i = 0; i <= dim; ++i)
+          {
+            divergence += velocity[cell.nodes[i]] * cell.gradient[i];
+            g += q.local_element(nodes[cell.nodes[i]].index) * cell.gradient[i];
+          }
+        g *= smoothing * (dim + 1);
+        for (unsigned int i = 0; i <= dim; ++i)
+          sum[cell.nodes[i]] += cell.volume * (divergence + g * cell.gradient[i]);
+      }
+    r = 0;
+    for (unsigned int k = 0; k < nodes.size(); ++k)
+      if (const Node &node = nodes[k]; node.index < mesh.n_owned_nodes() && node.diagonal > 0)
+        r.local_element(node.index) = sum[k] + least * node.diagonal * q.local_element(node.index);
+  }
+
+  template <int dim>
+  const NodeVector<dim> &
+  SurfaceDivergence<dim>::flow(const Vector &q)
+  {
+    std::fill(force.begin(), force.end(), Tensor<1, dim>());
+    for (const Cell &cell : cells)
+      {
+        double whole = 0;
+        for (const unsigned int k : cell.nodes)
+          whole += q.local_element(nodes[k].index);
+        for (unsigned int i = 0; i <= dim; ++i)
+          force[cell.nodes[i]] += cell.volume * whole * cell.gradient[i];
+      }
+    for (unsigned int k = 0; k < nodes.size(); ++k)
+      if (const Node &node = nodes[k]; node.index < mesh.n_owned_nodes())
+        for (unsigned int d = 0; d < dim; ++d)
+          flowing.component[d].local_element(node.index) = is_free(node, d) ? force[k][d] / node.mass : 0.;
+    flowing.update_ghost_values();
+    return flowing;
+  }
+
+  template <int dim>
+  void
+  SurfaceDivergence<dim>::remove_from(NodeVector<dim> &v)
+  {
+    Vector d(mesh.nodes), q(mesh.nodes);
+    q.update_ghost_values();
+    weigh(v, q, d);
+    q.zero_out_ghost_values();
+    const double norm = d.l2_norm();
+    if (!(norm > 0))
+      return;
+    IterationNumberControl control(most_iterations, tolerance * norm);
+    SolverCG<Vector>       solver(control);
+    solver.solve(Multiplies<Vector>{[&](Vector &r, const Vector &q) {
+                   q.update_ghost_values();
+                   weigh(flow(q), q, r);
+                   q.zero_out_ghost_values();
+                 }},
+                 q,
+                 d,
+                 Multiplies<Vector>{[this](Vector &z, const Vector &r) {
+                   z = 0;
+                   for (const Node &node : nodes)
+                     if (node.index < mesh.n_owned_nodes() && node.diagonal > 0)
+                       z.local_element(node.index) = r.local_element(node.index) / node.with_smoothing;
+                 }});
+    q.update_ghost_values();
+    const NodeVector<dim> &change = flow(q);
+    for (const Node &node : nodes)
+      if (node.index < mesh.n_owned_nodes())
+        v.set(node.index, v.value(node.index) - change.value(node.index));
+    v.update_ghost_values();
+  }
+
+  template class SurfaceDivergence<2>;
+  template class SurfaceDivergence<3>;
 } // namespace treacle

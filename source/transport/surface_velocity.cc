@@ -4,7 +4,6 @@
 #include <treacle/fields/gradients.h>
 #include <treacle/fields/layers.h>
 #include <treacle/fields/solid_normal.h>
-#include <treacle/transport/surface_divergence.h>
 #include <treacle/transport/surface_velocity.h>
 #include <treacle/transport/velocity_in_time.h>
 
@@ -181,7 +180,7 @@ namespace treacle
                    const LiquidDomain<dim> &domain,
                    const NodeVector<dim>   &v,
                    const double             distance,
-                   const NodeVector<dim>   *gradient)
+                   SurfaceDivergence<dim>  *divergence)
   {
     NodeVector<dim> result   = combined(1, v, 1, linear_part(state, domain, v, distance));
     const auto      is_solid = [&](const LocalIndex node) { return domain.solid_distance[node] <= 0; };
@@ -190,8 +189,8 @@ namespace treacle
         continue_at_walls(domain, is_solid, result);
         stop_at_solids(state, domain, result);
       }
-    if (gradient != nullptr)
-      remove_divergence_at_surface(state.phi, *gradient, domain, result);
+    if (divergence != nullptr)
+      divergence->remove_from(result);
     continue_at_walls(domain, std::not_fn(is_solid), result);
     return result;
   }
@@ -201,11 +200,11 @@ namespace treacle
                    const LiquidDomain<2> &,
                    const NodeVector<2> &,
                    const double,
-                   const NodeVector<2> *);
+                   SurfaceDivergence<2> *);
   template NodeVector<3>
   surface_velocity(const State<3> &,
                    const LiquidDomain<3> &,
                    const NodeVector<3> &,
                    const double,
-                   const NodeVector<3> *);
+                   SurfaceDivergence<3> *);
 } // namespace treacle

@@ -74,21 +74,22 @@ namespace treacle
   {
     const State<dim>    &old   = *liquid.state;
     const double         reach = time_step.reach(old, *liquid.domain);
-    const Advection<dim> advection(prm.advection, old, *liquid.domain, *liquid.surface, difference);
-    const auto           ends = timing.measured(
-      "markers", [&] { return advection.move_surface(liquid.surface->facets.positions); });
+    const Advection<dim> advection = timing.measured("advection", [&] {
+      return Advection<dim>(prm.advection, old, *liquid.domain, *liquid.surface, difference);
+    });
+    const auto ends =
+      timing.measured("markers", [&] { return advection.move_surface(liquid.surface->facets.positions); });
     const MovedSurface<dim> moved{*old.mesh, liquid.surface->facets, ends};
     Info                    info;
-    info.lost = timing.measured(
-      "surface", [&] { return lost_in_walls(scene, moved, old.time, old.time + difference.dt); });
+    info.lost =
+      timing.measured("surface", [&] { return lost_in_walls(scene, moved, old.time, old.time + difference.dt); });
     if (sum(info.lost, old.mesh->communicator()) > most_lost)
       return {};
     const auto markers = timing.measured("markers", [&] { return advection.move_markers(); });
-    const auto mesh    = timing.measured("mesh", [&] {
-      return mesh_for_next_surface(
-        old, *liquid.domain, *liquid.surface, advection, ends, markers, difference.dt);
+    const auto mesh = timing.measured("mesh", [&] {
+      return mesh_for_next_surface(old, *liquid.domain, *liquid.surface, advection, ends, markers, difference.dt);
     });
-    auto       next    = timing.measured("advection", [&] {
+    auto next = timing.measured("advection", [&] {
       return carry(old, advection, mesh, reach, Advection<dim>::SurfaceMotion::carried);
     });
 
@@ -99,8 +100,7 @@ namespace treacle
     const auto inflow  = emit(*next, *data, difference.dt);
     info.emitted       = sum(inflow, mesh->communicator());
     tracking.follow_markers(*next, *data, difference.dt, time_step.reach_of_distance(reach, *mesh));
-    const double wanted = volume + info.emitted;
-    // what earlier steps left to be corrected is not of this one
+    const double wanted = volume + info.emitted; // what earlier steps left to be corrected is not of this one
     account_for<dim>(info, liquid.domain->total_volume(), wanted, tracking.keeps_volume(), moved, *data, *next);
     auto surface = tracking.settle(*next, *data, wanted - info.missing, [&] {
       return all_parcels<dim>(advection, inflow, info.lost, -info.missing, *mesh);

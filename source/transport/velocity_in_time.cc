@@ -29,40 +29,65 @@ namespace treacle
             }
       }
 
-      /// Values at these, [node * dim + component], of the components of @p v that are not held.
-      void
-      copy_to(NodeVector<dim>                  &v,
-              const std::vector<double>        &values,
-              const std::vector<unsigned char> &held) const
+      std::vector<Tensor<1, dim>>
+      values(const NodeVector<dim> &v) const
       {
-        for (unsigned int i = 0; i < nodes.size(); ++i)
+        std::vector<Tensor<1, dim>> result;
+        result.reserve(nodes.size());
+        for (const LocalIndex node : nodes)
+          result.push_back(v.value(node));
+        return result;
+      }
+    };
+
+    /// A velocity now and how it changes; components that are held do so at the node.
+    template <int dim>
+    struct Changing
+    {
+      const NodeVector<dim>            &now;
+      NodeVector<dim>                   change; ///< in the step before, of what is at each node now (m/s)
+      const std::vector<unsigned char> &held;
+
+      Changing(const NodeVector<dim>            &now,
+               const NodeVector<dim>            &before,
+               const double                      dt,
+               const PassedNodes<dim>           &passed,
+               const std::vector<unsigned char> &held)
+        : now(now)
+        , change(combined(1, now, -1, before))
+        , held(held)
+      {
+        const Tracer<dim>         tracer(passed.mesh);
+        const NodeVector<dim>     between = combined(0.5, now, 0.5, before);
+        Guesses                   cells   = passed.cells;
+        const auto                from = tracer.trace(passed.x, between, -dt, cells, passed.values(between));
+        const std::vector<double> values = tracer.evaluate(from, fields_of(before), cells);
+        set(passed, change, [&](const unsigned int i, const unsigned int d) {
+          return now.component[d].local_element(passed.nodes[i]) - values[dim * i + d];
+        });
+      }
+
+      /// @p v at the passed nodes to value (number, component), but for what is held.
+      template <typename Value>
+      void
+      set(const PassedNodes<dim> &passed, NodeVector<dim> &v, const Value &value) const
+      {
+        for (unsigned int i = 0; i < passed.nodes.size(); ++i)
           for (unsigned int d = 0; d < dim; ++d)
-            if (!(held[nodes[i]] >> d & 1))
-              v.component[d].local_element(nodes[i]) = values[dim * i + d];
+            if (!(held[passed.nodes[i]] >> d & 1))
+              v.component[d].local_element(passed.nodes[i]) = value(i, d);
         v.update_ghost_values();
       }
     };
 
-    /// How much the velocity of what is at each node now has changed in the step before, of size @p dt (m/s); of components that
-    /// are held, at the node.
     template <int dim>
-    NodeVector<dim>
-    change_along_paths(const NodeVector<dim>            &now,
-                       const NodeVector<dim>            &before,
-                       const double                      dt,
-                       const PassedNodes<dim>           &passed,
-                       const std::vector<unsigned char> &held)
+    std::vector<NodeField<dim>>
+    fields_of(const NodeVector<dim> &v, const NodeVector<dim> &w)
     {
-      const Tracer<dim> tracer(passed.mesh);
-      Guesses           cells  = passed.cells;
-      const auto        from   = tracer.trace(passed.x, combined(0.5, now, 0.5, before), -dt, cells);
-      auto              values = tracer.evaluate(from, fields_of(before), cells);
-      for (unsigned int i = 0; i < passed.nodes.size(); ++i)
-        for (unsigned int d = 0; d < dim; ++d)
-          values[dim * i + d] = now.component[d].local_element(passed.nodes[i]) - values[dim * i + d];
-      NodeVector<dim> change = combined(1, now, -1, before);
-      passed.copy_to(change, values, held);
-      return change;
+      auto       fields = fields_of(v);
+      const auto more   = fields_of(w);
+      fields.insert(fields.end(), more.begin(), more.end());
+      return fields;
     }
 
     /// With ghosts, which deal.II does not copy.
@@ -107,31 +132,30 @@ namespace treacle
     const NodeVector<dim>           &before = *state.before->v;
     const double                     dt     = state.before->dt;
     const std::vector<unsigned char> none(domain.constrained.size());
-    const PassedNodes<dim>           passed(state, reach);
-    const NodeVector<dim> change = change_along_paths(state.v, before, dt, passed, domain.constrained);
-    const NodeVector<dim> change_of_surface =
-      change_along_paths(surface, of_surface(before), dt, passed, none);
-    const Tracer<dim>            tracer(*state.mesh);
-    std::vector<NodeVector<dim>> carried, moving; // in the middle and at the end
+    const PassedNodes<dim>            passed(state, reach);
+    const Changing<dim>               liquid(state.v, before, dt, passed, domain.constrained);
+    const Changing<dim>               moving_surface(surface, of_surface(before), dt, passed, none);
+    const Tracer<dim>                 tracer(*state.mesh);
+    const std::vector<Tensor<1, dim>> first = passed.values(surface);
+    std::vector<NodeVector<dim>>      carried, moving; // in the middle and at the end
     for (const unsigned int half : {1, 2})
       {
-        const double after     = 0.5 * half * difference.dt;
-        Guesses      here      = passed.cells, there = passed.cells;
-        const auto   y         = tracer.trace(passed.x, surface, -after, here);
-        const auto   z         = tracer.trace(passed.x, surface, 0.5 * (dt - after), there);
-        const auto   continued = [&](const NodeVector<dim>            &now,
-                                   const NodeVector<dim>            &change,
-                                   const std::vector<unsigned char> &held) {
-          auto       values  = tracer.evaluate(y, fields_of(now), here);
-          const auto changes = tracer.evaluate(z, fields_of(change), there);
-          for (unsigned int i = 0; i < values.size(); ++i)
-            values[i] += after / dt * changes[i];
-          NodeVector<dim> v = combined(1, now, after / dt, change);
-          passed.copy_to(v, values, held);
+        const double after = 0.5 * half * difference.dt;
+        Guesses      here = passed.cells, there = passed.cells;
+        const auto   y       = tracer.trace(passed.x, surface, -after, here, first);
+        const auto   z       = tracer.trace(passed.x, surface, 0.5 * (dt - after), there, first);
+        const auto   values  = tracer.evaluate(y, fields_of(state.v, surface), here);
+        const auto   changes = tracer.evaluate(z, fields_of(liquid.change, moving_surface.change), there);
+        const auto   continued = [&](const Changing<dim> &changing, const unsigned int offset) {
+          NodeVector<dim> v = combined(1, changing.now, after / dt, changing.change);
+          changing.set(passed, v, [&](const unsigned int i, const unsigned int d) {
+            const unsigned int k = 2 * dim * i + offset + d;
+            return values[k] + after / dt * changes[k];
+          });
           return v;
         };
-        carried.push_back(continued(state.v, change, domain.constrained));
-        moving.push_back(continued(surface, change_of_surface, none));
+        carried.push_back(continued(liquid, 0));
+        moving.push_back(continued(moving_surface, dim));
       }
     return {quarters(state.v, carried[0], carried[1]), quarters(surface, moving[0], moving[1])};
   }

@@ -37,10 +37,7 @@ namespace tests::transport_surface_divergence
                       const LiquidDomain<dim> &domain,
                       NodeVector<dim>         &v)
     {
-      remove_divergence_at_surface(state.phi,
-                                   nodal_gradient(*state.mesh, state.phi),
-                                   domain,
-                                   v);
+      SurfaceDivergence<dim>(state.phi, nodal_gradient(*state.mesh, state.phi), domain).remove_from(v);
     }
 
     std::string

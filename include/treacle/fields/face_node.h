@@ -8,6 +8,17 @@
 
 namespace treacle
 {
+  /// Mean over the face's nodes: at its barycentre (m/s).
+  template <int dim>
+  Tensor<1, dim>
+  mean_at_face(const Mesh<dim> &mesh, const NodeVector<dim> &v, const LocalIndex face)
+  {
+    Tensor<1, dim> mean;
+    for (const LocalIndex node : mesh.face_nodes[face])
+      mean += v.value(node) / dim;
+    return mean;
+  }
+
   /// P: face velocity from node velocity, n·(mean over the face's nodes); exact
   /// for linear fields at the barycentre.
   template <int dim>

@@ -55,6 +55,13 @@ namespace treacle
     VelocityInStep(const std::array<NodeVector<dim>, 5> &v)
       : after{{&v[0], &v[1], &v[2], &v[3], &v[4]}}
     {}
+
+    /// Where paths of a step of size @p dt begin, forwards, or backwards where that is negative.
+    const NodeVector<dim> &
+    first(const double dt) const
+    {
+      return *after[dt < 0 ? 4 : 0];
+    }
   };
 
   /// Follows paths and evaluates node fields anywhere in the mesh: what lies on
@@ -84,12 +91,14 @@ namespace treacle
     }
 
     /// Where the paths through @p x lead in a step of size @p dt, with Ralston's Runge-Kutta method of order 3. Negative: where
-    /// those that end in x come from. Paths that leave the mesh end at its boundary. Guesses are for x, then for the ends.
+    /// those that end in x come from. Paths that leave the mesh end at its boundary. Guesses are for x, then for the ends. Who
+    /// knows it gives the velocity that paths begin with, velocity.first(dt) at x (m/s), which saves to look for x.
     std::vector<Point<dim>>
-    trace(const std::vector<Point<dim>> &x,
-          const VelocityInStep<dim>     &velocity,
-          const double                   dt,
-          Guesses                       &guesses) const;
+    trace(const std::vector<Point<dim>>     &x,
+          const VelocityInStep<dim>         &velocity,
+          const double                       dt,
+          Guesses                           &guesses,
+          const std::vector<Tensor<1, dim>> &first = {}) const;
 
     std::vector<Point<dim>>
     trace(const std::vector<Point<dim>> &x, const VelocityInStep<dim> &velocity, const double dt) const
@@ -100,22 +109,24 @@ namespace treacle
 
     /// The same, but paths may end outside of the mesh.
     std::vector<Point<dim>>
-    path_ends(const std::vector<Point<dim>> &x,
-              const VelocityInStep<dim>     &velocity,
-              const double                   dt,
-              Guesses                       &guesses) const;
+    path_ends(const std::vector<Point<dim>>     &x,
+              const VelocityInStep<dim>         &velocity,
+              const double                       dt,
+              Guesses                           &guesses,
+              const std::vector<Tensor<1, dim>> &first = {}) const;
 
   private:
     /// Not collective; nothing where the point may lie on another rank. Guesses become where it was found.
     std::optional<Tensor<1, dim>>
     value_here(const Point<dim> &x, const NodeVector<dim> &field, LocalIndex &guess) const;
 
-    /// The same of a path. One after the other they stay among the same few cells.
+    /// The same of a path, with the velocity that it begins with. One after the other they stay among the same few cells.
     std::optional<Point<dim>>
-    path_end_here(const Point<dim>          &x,
-                  const VelocityInStep<dim> &velocity,
-                  const double               dt,
-                  LocalIndex                &guess) const;
+    path_end_here(const Point<dim>                    &x,
+                  const VelocityInStep<dim>           &velocity,
+                  const double                         dt,
+                  const std::optional<Tensor<1, dim>> &first,
+                  LocalIndex                          &guess) const;
 
     /// Paths that lead to other ranks or out of the mesh.
     std::vector<Point<dim>>

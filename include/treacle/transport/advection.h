@@ -10,6 +10,7 @@
 #include <treacle/surface/marker_motion.h>
 #include <treacle/surface/surface_geometry.h>
 #include <treacle/transport/free_fall.h>
+#include <treacle/transport/path_ends.h>
 #include <treacle/transport/velocity_in_time.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -160,7 +161,14 @@ namespace treacle
     };
 
     Paths
-    paths_to(const std::vector<Point<dim>> &x, const Carried &now, Guesses &&guesses) const;
+    paths_to(PathEnds<dim> &&ends, const Carried &now) const;
+
+    /// To be filled with nodes or faces of @p mesh.
+    PathEnds<dim>
+    ends_in(const Mesh<dim> &mesh, const NodeVector<dim> &v) const
+    {
+      return {mesh, &mesh == old.mesh.get() ? &v : nullptr};
+    }
 
     /// By how much the velocity changed in the step before along these paths, in place of the values.
     std::vector<double>

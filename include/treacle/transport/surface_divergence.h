@@ -21,15 +21,74 @@ namespace treacle
   /// L the stiffness of q, without which weights that alternate from node to node are
   /// hardly seen. As the weights sum to one, and L q to zero, what flows through the
   /// surface is right as a whole. Components that are prescribed stay. Not in gaps
-  /// between liquid thinner than a cell, whose air is to go, nor beside emitters. v
-  /// (m/s), phi (m) and its gradient at nodes, with up-to-date ghosts before and after.
-  /// Collective.
+  /// between liquid thinner than a cell, whose air is to go, nor beside emitters.
   template <int dim>
-  void
-  remove_divergence_at_surface(const Vector            &phi,
-                               const NodeVector<dim>   &gradient,
-                               const LiquidDomain<dim> &domain,
-                               NodeVector<dim>         &v);
+  class SurfaceDivergence
+  {
+  public:
+    /// phi (m) and its gradient at nodes, with up-to-date ghosts; @p domain must outlive this object. Collective.
+    SurfaceDivergence(const Vector &phi, const NodeVector<dim> &gradient, const LiquidDomain<dim> &domain);
+
+    /// Of v (m/s), with up-to-date ghosts before and after. Collective.
+    void
+    remove_from(NodeVector<dim> &v);
+
+  private:
+    /// Those whose divergence counts, in a row.
+    struct Cell
+    {
+      std::array<unsigned int, dim + 1>   nodes;    ///< by their place in Nodes
+      double                              volume;   ///< of its liquid, over the number of its nodes
+      std::array<Tensor<1, dim>, dim + 1> gradient; ///< of the nodes' weights (1/m)
+    };
+
+    /// The nodes of these cells.
+    struct Node
+    {
+      LocalIndex    index;
+      double        mass;       ///< liquid of these cells about a node that moves (m^dim); 0 if it does not
+      double        diagonal;   ///< of the matrix, without smoothing; positive where an owned node has a weight
+      double        with_smoothing;
+      unsigned char constrained; ///< by components
+    };
+
+    /// The cells whose divergence counts are those of the nodes that move; theirs weigh
+    /// it, so that it cannot go elsewhere.
+    void
+    find_cells(const Vector &phi, const NodeVector<dim> &gradient);
+
+    /// A cell, and its nodes that have no place yet.
+    void
+    append(const LocalIndex cell, std::vector<unsigned int> &place);
+
+    bool
+    is_free(const Node &node, const unsigned int d) const
+    {
+      return node.mass > 0 && !(node.constrained >> d & 1);
+    }
+
+    /// Of the matrix, about: the sum of its cells' own. What nothing beside it can move
+    /// has no weight. Smoothing is much the larger part of it where a cell has little liquid.
+    void
+    find_diagonal();
+
+    /// r = B v + (0.1 L + 1e-4 D) q, D the diagonal. Ghosts are up to date.
+    void
+    weigh(const NodeVector<dim> &v, const Vector &q, Vector &r);
+
+    /// M^-1 B^T q, where no component is prescribed; ghosts are up to date.
+    const NodeVector<dim> &
+    flow(const Vector &q);
+
+    const LiquidDomain<dim> &domain;
+    const Mesh<dim>         &mesh;
+    std::vector<Cell>        cells;
+    std::vector<Node>        nodes;
+    // scratch
+    NodeVector<dim>             flowing;
+    std::vector<double>         sum;
+    std::vector<Tensor<1, dim>> force, velocity;
+  };
 } // namespace treacle
 
 #endif

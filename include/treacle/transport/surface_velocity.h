@@ -4,7 +4,7 @@
 #ifndef treacle_transport_surface_velocity_h
 #define treacle_transport_surface_velocity_h
 
-#include <treacle/fields/liquid_domain.h>
+#include <treacle/transport/surface_divergence.h>
 
 namespace treacle
 {
@@ -15,8 +15,7 @@ namespace treacle
   /// - at walls and in solids the velocity of the nodes beside them. With the wall's own a film of
   ///   air would remain under all that falls on it, for a P1 velocity vanishes there. In solids that liquid touches it is theirs along
   ///   their normal: with that of the nodes beside them a film thinner than a leaf would go into the wall.
-  /// - beside the surface without divergence (surface_divergence.h), given the @p gradient of phi at nodes; null for
-  ///   what pushes liquid out of walls, which has some.
+  /// - beside the surface without @p divergence; null for what pushes liquid out of walls, which has some.
   ///
   /// Velocity itself is not advected with this one: each step would continue what the step
   /// before continued, and flows without viscosity gain energy. Collective.
@@ -26,7 +25,7 @@ namespace treacle
                    const LiquidDomain<dim> &domain,
                    const NodeVector<dim>   &v,
                    const double             distance,
-                   const NodeVector<dim>   *gradient);
+                   SurfaceDivergence<dim>  *divergence);
 } // namespace treacle
 
 #endif
