@@ -31,10 +31,12 @@ namespace treacle
     unsigned int
     negative_first(const VertexValues<dim> &phi, std::array<unsigned int, dim + 1> &order)
     {
-      return std::stable_partition(order.begin(),
-                                   order.end(),
-                                   [&](const unsigned int i) { return phi[i] < 0; }) -
-             order.begin();
+      std::array<unsigned int, dim + 1> others;
+      unsigned int                      n = 0, n_others = 0;
+      for (const unsigned int i : order)
+        (phi[i] < 0 ? order[n++] : others[n_others++]) = i;
+      std::copy_n(others.begin(), n_others, order.begin() + n);
+      return n;
     }
 
     template <int dim>

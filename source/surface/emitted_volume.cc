@@ -6,102 +6,173 @@
 
 #include <algorithm>
 #include <numeric>
+#include <unordered_map>
 
 namespace treacle
 {
-  template <int dim>
-  EmittedVolume<dim>::LongestEdge::LongestEdge(const Vertices &v)
+  namespace
   {
-    for (unsigned int a = 0; a <= dim; ++a)
-      for (unsigned int b = 0; b < a; ++b)
-        if (const double between = v[a].x.distance(v[b].x); between > length)
-          {
-            i      = a;
-            j      = b;
-            length = between;
-          }
-  }
+    /// A simplex that is halved again and again. What is in the middle of two vertices, which several parts share, is found once.
+    template <int dim>
+    class HalvedSimplex
+    {
+    public:
+      using Vertex = typename EmittedVolume<dim>::Vertex;
 
-  template <int dim>
-  bool
-  EmittedVolume<dim>::is_far(const Vertices &v, const LongestEdge &edge)
-  {
-    constexpr double alike = 1e-6;
-    const auto is_in_solid = [](const Vertex &a) { return a.psi <= 0; };
-    const auto is_alike    = [&](const Vertex &a) {
-      return std::min(std::abs(a.phi.inside), std::abs(a.phi.kept)) > edge.length ||
-             std::abs(a.phi.inside - a.phi.kept) < alike * edge.length;
-    };
-    return std::all_of(v.begin(), v.end(), is_in_solid) || std::all_of(v.begin(), v.end(), is_alike);
-  }
+      HalvedSimplex(const EmittedVolume<dim> &emitted, const typename EmittedVolume<dim>::Vertices &v)
+        : emitted(emitted)
+        , vertices(v.begin(), v.end())
+      {}
 
-  template <int dim>
-  std::array<typename EmittedVolume<dim>::Vertices, 2>
-  EmittedVolume<dim>::halved(const Vertices &v, const LongestEdge &edge) const
-  {
-    const Vertex           &a = v[edge.i], &b = v[edge.j];
-    std::array<Vertices, 2> halves{{v, v}};
-    halves[0][edge.i] = halves[1][edge.j] = vertex(a.x + 0.5 * (b.x - a.x), 0.5 * (a.old + b.old), 0.5 * (a.psi + b.psi));
-    return halves;
-  }
-
-  template <int dim>
-  double
-  EmittedVolume<dim>::after(const Vertices &v, const unsigned int halvings) const
-  {
-    constexpr unsigned int rounds = 2;
-    const LongestEdge      edge(v);
-    if (is_far(v, edge))
-      return volume(v);
-    if (halvings == 0)
-      return in_rounds(v, volume(v), rounds);
-    const auto halves = halved(v, edge);
-    return after(halves[0], halvings - 1) + after(halves[1], halvings - 1);
-  }
-
-  template <int dim>
-  double
-  EmittedVolume<dim>::in_rounds(const Vertices &v, const double whole, const unsigned int rounds) const
-  {
-    constexpr double       tolerance = 2e-3; // of the simplex
-    constexpr unsigned int n_parts   = 1 << dim;
-    if (rounds == 0 || is_far(v, LongestEdge(v)))
-      return whole;
-    std::array<Vertices, n_parts> parts{{v}};
-    for (unsigned int n = 1; n < n_parts; n *= 2)
-      for (unsigned int k = 0; k < n; ++k)
-        {
-          const auto halves = halved(parts[k], LongestEdge(parts[k]));
-          parts[k]          = halves[0];
-          parts[n + k]      = halves[1];
-        }
-    std::array<double, n_parts> volumes;
-    std::transform(parts.begin(), parts.end(), volumes.begin(), [](const Vertices &part) { return volume(part); });
-    double       sum = std::accumulate(volumes.begin(), volumes.end(), 0.);
-    Simplex<dim> x;
-    std::transform(v.begin(), v.end(), x.begin(), [](const Vertex &vertex) { return vertex.x; });
-    if (std::abs(sum - whole) < tolerance * std::abs(signed_volume<dim>(x)))
-      return sum;
-    sum = 0;
-    for (unsigned int k = 0; k < n_parts; ++k)
-      sum += in_rounds(parts[k], volumes[k], rounds - 1);
-    return sum;
-  }
-
-  template <int dim>
-  double
-  EmittedVolume<dim>::volume(const Vertices &v)
-  {
-    Simplex<dim>      x;
-    VertexValues<dim> inside, kept, psi;
-    for (unsigned int i = 0; i <= dim; ++i)
+      /// (m^dim)
+      double
+      volume()
       {
-        x[i]      = v[i].x;
-        inside[i] = v[i].phi.inside;
-        kept[i]   = v[i].phi.kept;
-        psi[i]    = v[i].psi;
+        Part whole;
+        std::iota(whole.begin(), whole.end(), 0);
+        return after(whole, dim);
       }
-    return liquid_moments<dim>(x, inside, psi).volume - liquid_moments<dim>(x, kept, psi).volume;
+
+    private:
+      using Part = std::array<unsigned int, dim + 1>; ///< of its vertices
+
+      struct LongestEdge
+      {
+        unsigned int i = 0, j = 0;
+        double       length = 0; ///< (m)
+      };
+
+      LongestEdge
+      longest_edge(const Part &v) const
+      {
+        LongestEdge edge;
+        double      longest = 0; // squared
+        for (unsigned int a = 0; a <= dim; ++a)
+          for (unsigned int b = 0; b < a; ++b)
+            if (const double between = vertices[v[a]].x.distance_square(vertices[v[b]].x); between > longest)
+              {
+                edge    = {a, b, 0};
+                longest = between;
+              }
+        edge.length = std::sqrt(longest);
+        return edge;
+      }
+
+      /// From where anything flows in, or in solids.
+      bool
+      is_far(const Part &v, const LongestEdge &edge) const
+      {
+        constexpr double alike       = 1e-6;
+        const auto       is_in_solid = [&](const unsigned int i) { return vertices[i].psi <= 0; };
+        const auto       is_alike    = [&](const unsigned int i) {
+          const auto &phi = vertices[i].phi;
+          return std::min(std::abs(phi.inside), std::abs(phi.kept)) > edge.length ||
+                 std::abs(phi.inside - phi.kept) < alike * edge.length;
+        };
+        return std::all_of(v.begin(), v.end(), is_in_solid) || std::all_of(v.begin(), v.end(), is_alike);
+      }
+
+      unsigned int
+      middle(const unsigned int i, const unsigned int j)
+      {
+        const auto [entry, is_new] =
+          middles.try_emplace(std::uint64_t(std::min(i, j)) << 32 | std::max(i, j), vertices.size());
+        if (is_new)
+          {
+            const Vertex &a = vertices[i], &b = vertices[j];
+            vertices.push_back(
+              emitted.vertex(a.x + 0.5 * (b.x - a.x), 0.5 * (a.old + b.old), 0.5 * (a.psi + b.psi)));
+          }
+        return entry->second;
+      }
+
+      std::array<Part, 2>
+      halved(const Part &v, const LongestEdge &edge)
+      {
+        std::array<Part, 2> halves{{v, v}};
+        halves[0][edge.i] = halves[1][edge.j] = middle(v[edge.i], v[edge.j]);
+        return halves;
+      }
+
+      /// When it has been halved so often.
+      double
+      after(const Part &v, const unsigned int halvings)
+      {
+        constexpr unsigned int rounds = 2;
+        const LongestEdge      edge   = longest_edge(v);
+        if (is_far(v, edge))
+          return as_shown(v);
+        if (halvings == 0)
+          return in_rounds(v, as_shown(v), rounds);
+        const auto halves = halved(v, edge);
+        return after(halves[0], halvings - 1) + after(halves[1], halvings - 1);
+      }
+
+      /// A simplex of a @p whole volume (m^dim) is halved in each direction, as often as that changes it.
+      double
+      in_rounds(const Part &v, const double whole, const unsigned int rounds)
+      {
+        constexpr double       tolerance = 2e-3; // of the simplex
+        constexpr unsigned int n_parts   = 1 << dim;
+        if (rounds == 0 || is_far(v, longest_edge(v)))
+          return whole;
+        std::array<Part, n_parts> parts{{v}};
+        for (unsigned int n = 1; n < n_parts; n *= 2)
+          for (unsigned int k = 0; k < n; ++k)
+            {
+              const auto halves = halved(parts[k], longest_edge(parts[k]));
+              parts[k]          = halves[0];
+              parts[n + k]      = halves[1];
+            }
+        std::array<double, n_parts> volumes;
+        std::transform(
+          parts.begin(), parts.end(), volumes.begin(), [this](const Part &part) { return as_shown(part); });
+        double       sum = std::accumulate(volumes.begin(), volumes.end(), 0.);
+        if (std::abs(sum - whole) < tolerance * std::abs(signed_volume<dim>(positions(v))))
+          return sum;
+        sum = 0;
+        for (unsigned int k = 0; k < n_parts; ++k)
+          sum += in_rounds(parts[k], volumes[k], rounds - 1);
+        return sum;
+      }
+
+      Simplex<dim>
+      positions(const Part &v) const
+      {
+        Simplex<dim> x;
+        std::transform(v.begin(), v.end(), x.begin(), [this](const unsigned int i) { return vertices[i].x; });
+        return x;
+      }
+
+      /// Its volume as functions that are linear in it show it.
+      double
+      as_shown(const Part &v) const
+      {
+        VertexValues<dim> inside, kept, psi;
+        for (unsigned int i = 0; i <= dim; ++i)
+          {
+            const Vertex &vertex = vertices[v[i]];
+            inside[i]            = vertex.phi.inside;
+            kept[i]              = vertex.phi.kept;
+            psi[i]               = vertex.psi;
+          }
+        const Simplex<dim> x = positions(v);
+        if (*std::min_element(psi.begin(), psi.end()) > 0)
+          return std::abs(signed_volume<dim>(x)) * (negative_fraction<dim>(inside) - negative_fraction<dim>(kept));
+        return liquid_moments<dim>(x, inside, psi).volume - liquid_moments<dim>(x, kept, psi).volume;
+      }
+
+      const EmittedVolume<dim>                       &emitted;
+      std::vector<Vertex>                             vertices;
+      std::unordered_map<std::uint64_t, unsigned int> middles;
+    };
+  } // namespace
+
+  template <int dim>
+  double
+  EmittedVolume<dim>::operator()(const Vertices &v) const
+  {
+    return HalvedSimplex<dim>(*this, v).volume();
   }
 
   template class EmittedVolume<2>;

@@ -62,10 +62,11 @@ namespace treacle
   typename EmitterFilling<dim>::Phi
   EmitterFilling<dim>::phi(const Point<dim> &x, const double old) const
   {
-    const double distance = filled(x);
+    const auto [emitter, to_emitter] = scene.nearest_emitter(x, time);
+    const double distance            = scene.has_solids() ? filled(x) : to_emitter;
     if (distance >= 2 * h) // what flowed in is no other than what was there
       return {std::min(old, distance), distance, distance};
-    const Point<dim> from  = x - dt * scene.emitter_velocity(x, time);
+    const Point<dim> from  = x - dt * emitter->velocity(x, time);
     const double     depth = depth_beyond(from, scene, time);
     // what flowed on from there has sharp edges here; what phi shows of it bulges beside them for their volume
     constexpr double bulge  = 0.1; // leaves

@@ -37,39 +37,9 @@ namespace treacle
 
     /// (m^dim)
     double
-    operator()(const Vertices &v) const
-    {
-      return after(v, dim);
-    }
+    operator()(const Vertices &v) const;
 
   private:
-    struct LongestEdge
-    {
-      unsigned int i = 0, j = 0;
-      double       length = 0; ///< (m)
-
-      explicit LongestEdge(const Vertices &v);
-    };
-
-    /// When it has been halved so often.
-    double
-    after(const Vertices &v, const unsigned int halvings) const;
-
-    /// From where anything flows in, or in solids.
-    static bool
-    is_far(const Vertices &v, const LongestEdge &edge);
-
-    std::array<Vertices, 2>
-    halved(const Vertices &v, const LongestEdge &edge) const;
-
-    /// A simplex of a @p whole volume (m^dim) is halved in each direction, as often as that changes it.
-    double
-    in_rounds(const Vertices &v, const double whole, const unsigned int rounds) const;
-
-    /// As functions that are linear in it show it.
-    static double
-    volume(const Vertices &v);
-
     const EmitterFilling<dim> &filling;
   };
 } // namespace treacle
