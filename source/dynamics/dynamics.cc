@@ -117,6 +117,7 @@ namespace treacle
       const auto section   = timing.section("coupled");
       auto       stiffness = dynamics.viscosity.stiffness(domain, step);
       stiffness.springs    = springs;
+      stiffness.skin       = Skin<dim>(domain, state.phi, step);
       const Stokes<dim> stokes(dynamics.prm.stokes,
                                dynamics.prm.viscosity.solver,
                                fit->system,

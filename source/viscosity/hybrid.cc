@@ -12,12 +12,23 @@ namespace treacle
   namespace
   {
     // measured: doc/method.md
-    constexpr double drag = 20;
+    constexpr double drag = 20, more_at_surface = 30;
     /// Bounds the drag from below, for liquids that have no viscosity.
     constexpr double least_share = 1e-8;
     /// Weight of a face that takes no part, of its mass: with 1e-8 a tip beyond the cells that have a
     /// pressure spins about the node it hangs on.
     constexpr double idle = 1e-3;
+
+    /// Is a face between a cell that has a pressure and one that has none, away from walls and solids?
+    template <int dim>
+    bool
+    is_at_surface(const LiquidDomain<dim> &domain, const LocalIndex face)
+    {
+      const auto &[first, second] = domain.mesh.face_cells[face];
+      const auto &nodes           = domain.mesh.face_nodes[face];
+      return second != invalid && domain.is_pressure_cell[first] != domain.is_pressure_cell[second] &&
+             std::all_of(nodes.begin(), nodes.end(), [&](const LocalIndex n) { return domain.constrained[n] == 0; });
+    }
   } // namespace
 
   template <int dim>
@@ -44,7 +55,9 @@ namespace treacle
               h = std::min(h, mesh.cell_size[c]);
               ++n;
             }
-        const double ratio = n > 0 ? drag * nu / n * step / (h * h) : 0;
+        const double spread = n > 0 ? nu / n * step / (h * h) : 0;
+        const double more   = faces == Faces::under_pressure && is_at_surface(domain, f) ? more_at_surface : 0;
+        const double ratio  = (1 + more * Skin<dim>::stiff_part(spread)) * drag * spread;
         const double s = std::max(ratio / (1 + ratio), least_share);
         part.local_element(f)       = s;
         other_part.local_element(f) = std::min(1 / (1 + ratio), 1 - least_share);

@@ -77,7 +77,7 @@ namespace treacle
     const double       gradient = stiffness.gradient.empty() ? 0 : stiffness.gradient[c];
     const auto         stiff    = [&](const Tensor<1, dim> &g, const Tensor<1, dim> &other) {
       return (strain + gradient) * (g * other) * Tensor<2, dim>(unit_symmetric_tensor<dim>()) +
-             strain * outer_product(other, g);
+             strain * (outer_product(other, g) + 2 * stiffness.skin.block(c, g, other));
     };
     const auto parts = domain.cut_cells.parts(c);
     // nodes in solids have rows of their own, for which any scale will do

@@ -30,7 +30,7 @@ namespace treacle
     {
       Tensor<2, dim> result;
       if (!stiffness.strain.empty())
-        result += stiffness.strain[cell] * (grad + transpose(grad));
+        result += stiffness.strain[cell] * (grad + transpose(grad) + 2 * stiffness.skin.stress(cell, grad));
       if (!stiffness.gradient.empty())
         result += stiffness.gradient[cell] * grad;
       return result;

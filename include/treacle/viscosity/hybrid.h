@@ -14,7 +14,9 @@ namespace treacle
   ///   1/2 |u - u*|^2_M + 1/2 v·K v + 1/2 |u - P v|^2_N,   K = -step D, N = drag nu step / h^2 M,
   ///
   /// least. What P v cannot follow decays at the rate drag nu / h^2, smooth motion
-  /// as K says, to second order in h; no force acts on a rigid motion, and none is created.
+  /// as K says, to second order in h; no force acts on a rigid motion, and none is created. Solved for together with the pressure, N is
+  /// up to 31 times as large at faces between a cell with pressure and one without, at the free surface, in stiff liquid: the pressure of what
+  /// is pulled or pressed along it ends there, as if it fell to zero, and would drive liquid out through what the nodes do not hold of the face.
   /// With the share s = N / (M + N) it is
   ///
   ///   (K + P^T s M P) v = P^T s M u*,   u = (1 - s) u* + s P v.
