@@ -12,7 +12,7 @@ namespace treacle
     , normal(part.size())
   {
     for (LocalIndex c = 0; c < part.size(); ++c)
-      if (domain.is_active_cell[c] && !domain.is_pressure_cell[c])
+      if (domain.is_active_cell[c] && domain.dual_distance[c] >= 0)
         if (const Tensor<1, dim> gradient = cell_gradient(domain.mesh, c, phi); gradient.norm() > 0)
           {
             part[c]   = stiff_part(domain.viscosity[c] / domain.density[c] * step / std::pow(domain.mesh.cell_size[c], 2));
