@@ -114,13 +114,16 @@ namespace treacle
       {
         constexpr double       tolerance = 2e-3; // of the simplex
         constexpr unsigned int n_parts   = 1 << dim;
-        if (rounds == 0 || is_far(v, longest_edge(v)))
+        if (rounds == 0)
+          return whole;
+        const LongestEdge edge = longest_edge(v);
+        if (is_far(v, edge))
           return whole;
         std::array<Part, n_parts> parts{{v}};
         for (unsigned int n = 1; n < n_parts; n *= 2)
           for (unsigned int k = 0; k < n; ++k)
             {
-              const auto halves = halved(parts[k], longest_edge(parts[k]));
+              const auto halves = halved(parts[k], n == 1 ? edge : longest_edge(parts[k]));
               parts[k]          = halves[0];
               parts[n + k]      = halves[1];
             }

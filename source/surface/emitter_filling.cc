@@ -8,6 +8,9 @@ namespace treacle
 {
   namespace
   {
+    /// In leaves from emitters: farther off these do not go on into solids.
+    constexpr double farthest = 5;
+
     /// How far a point is beyond the box or in a solid (m), negative in the open. What flows along a wall comes from it, not from beyond.
     template <int dim>
     double
@@ -37,7 +40,7 @@ namespace treacle
     if (!scene.has_solids())
       return emitters;
     const Distance<dim> solids = [&scene, time](const Point<dim> &x) { return scene.solid_distance(x, time); };
-    constexpr double farthest = 5; // leaves; outside of emitters only what is in solids changes, near their walls
+    // outside of emitters only what is in solids changes, near their walls
     return [emitters, solids, h, rounding = scene.rounding()](const Point<dim> &x) {
       const double distance = emitters(x);
       return distance > farthest * h ? distance : snapped(beyond_solids<dim>(emitters, solids, x, h), rounding);
@@ -63,7 +66,7 @@ namespace treacle
   EmitterFilling<dim>::phi(const Point<dim> &x, const double old) const
   {
     const auto [emitter, to_emitter] = scene.nearest_emitter(x, time);
-    const double distance            = scene.has_solids() ? filled(x) : to_emitter;
+    const double distance            = scene.has_solids() && to_emitter <= farthest * h ? filled(x) : to_emitter;
     if (distance >= 2 * h) // what flowed in is no other than what was there
       return {std::min(old, distance), distance, distance};
     const Point<dim> from  = x - dt * emitter->velocity(x, time);
