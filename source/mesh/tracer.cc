@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/mesh/ask.h>
+#include <treacle/mesh/last_location.h>
 #include <treacle/mesh/tracer.h>
 
 namespace treacle
@@ -76,22 +77,33 @@ namespace treacle
     const unsigned int        n = fields.size();
     std::vector<double>       values(x.size() * n);
     std::vector<unsigned int> elsewhere;
+    LastLocation<dim>         last(mesh);
     guesses.resize(x.size(), invalid);
     for (unsigned int i = 0; i < x.size(); ++i)
       {
-        const Location<dim> location = locator.locate(x[i], guesses[i]);
+        const Location<dim> location = locator.locate(x[i], guesses[i] == invalid ? last.guess(x[i]) : guesses[i]);
         guesses[i]                   = location.cell;
+        last.set(x[i], location.cell);
         if (location.cell == invalid)
           elsewhere.push_back(i);
         else
           evaluate_here(location, fields, &values[i * n]);
       }
-    const MPI_Comm &comm = mesh.communicator();
     for (const unsigned int i : elsewhere)
       check_finite(x[i]);
-    if (Utilities::MPI::n_mpi_processes(comm) == 1)
-      return values;
+    if (Utilities::MPI::n_mpi_processes(mesh.communicator()) > 1)
+      evaluate_elsewhere(x, elsewhere, fields, values);
+    return values;
+  }
 
+  template <int dim>
+  void
+  Tracer<dim>::evaluate_elsewhere(const std::vector<Point<dim>>     &x,
+                                  const std::vector<unsigned int>   &elsewhere,
+                                  const std::vector<NodeField<dim>> &fields,
+                                  std::vector<double>               &values) const
+  {
+    const unsigned int        n = fields.size();
     std::vector<Point<dim>>   asked;
     std::vector<unsigned int> ranks;
     for (const unsigned int i : elsewhere)
@@ -103,7 +115,7 @@ namespace treacle
         asked[i] = owners[i].point;
       }
     const std::vector<double> heard =
-      ask(comm, ranks, asked, n, [&](const Point<dim> &p, double *result) {
+      ask(mesh.communicator(), ranks, asked, n, [&](const Point<dim> &p, double *result) {
         const Location<dim> location = locator.locate_here(p);
         AssertThrow(location.cell != invalid,
                     ExcMessage("There is no cell around the point " + to_text(p, 6) + "."));
@@ -111,7 +123,6 @@ namespace treacle
       });
     for (unsigned int i = 0; i < elsewhere.size(); ++i)
       std::copy_n(&heard[i * n], n, &values[elsewhere[i] * n]);
-    return values;
   }
 
   template <int dim>
@@ -171,9 +182,15 @@ namespace treacle
     std::vector<unsigned int>     places;
     Guesses                       other_guesses;
     std::optional<Tensor<1, dim>> begin;
+    LastLocation<dim>             last(mesh);
     for (unsigned int i = 0; i < x.size(); ++i)
       {
         LocalIndex guess = guesses[i];
+        if (guess == invalid)
+          {
+            guess = locator.locate(x[i], last.guess(x[i])).cell;
+            last.set(x[i], guess);
+          }
         if (!first.empty())
           begin = first[i];
         if (const auto end = path_end_here(x[i], velocity, dt, begin, guess))

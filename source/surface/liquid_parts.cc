@@ -5,7 +5,9 @@
 #include <treacle/fields/liquid_volume.h>
 #include <treacle/fields/moved_points.h>
 #include <treacle/geometry/cut_simplex.h>
+#include <treacle/mesh/last_location.h>
 #include <treacle/mesh/surface_size.h>
+#include <treacle/mesh/tracer.h>
 #include <treacle/surface/liquid_parts.h>
 #include <treacle/surface/surface.h>
 
@@ -243,27 +245,31 @@ namespace treacle
     std::vector<Parcel<dim>> inside = parcels;
     clamp(mesh, inside);
     std::vector<double> here(size()), all(size());
+    LastLocation<dim>   last(mesh);
     for (const Parcel<dim> &parcel : to_owners(mesh, inside))
-      if (const Location<dim> place = mesh.locator().locate_here(parcel.position); place.cell != invalid)
-        share(place.cell, place.lambda, [&](const std::size_t k, const double fraction) {
-          here[k] += fraction * parcel.volume;
-        });
+      {
+        const Location<dim> place = mesh.locator().locate_here(parcel.position, last.guess(parcel.position));
+        last.set(parcel.position, place.cell);
+        if (place.cell != invalid)
+          share(place.cell, place.lambda, [&](const std::size_t k, const double fraction) {
+            here[k] += fraction * parcel.volume;
+          });
+      }
     Utilities::MPI::sum(here, mesh.communicator(), all);
     return all;
   }
 
   template <int dim>
-  double
-  LiquidParts<dim>::at(const Point<dim> &x, const std::vector<double> &of_parts) const
+  std::vector<double>
+  LiquidParts<dim>::at(const std::vector<Point<dim>> &x, const std::vector<double> &of_parts) const
   {
     if (size() == 1 && data.scene.emitters().empty())
-      return of_parts[0];
-    const Location<dim> place = mesh.locator().locate_here(x);
-    double              value = 0;
-    if (place.cell != invalid)
-      for (unsigned int i = 0; i <= dim; ++i)
-        value += place.lambda[i] * at_node(mesh.cell_nodes[place.cell][i], of_parts);
-    return value;
+      return std::vector<double>(x.size(), of_parts[0]);
+    Vector value(mesh.nodes);
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      value.local_element(node) = at_node(node, of_parts);
+    value.update_ghost_values();
+    return Tracer<dim>(mesh).evaluate(x, {{&value}});
   }
 
   template class LiquidParts<2>;

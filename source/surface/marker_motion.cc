@@ -81,11 +81,14 @@ namespace treacle
   moved_parcels(const LiquidDomain<dim> &domain, const VelocityInStep<dim> &velocity, const double dt)
   {
     std::vector<Parcel<dim>> moved;
+    Guesses                  cells;
     for (LocalIndex c = 0; c < domain.mesh.n_owned_cells(); ++c)
       if (domain.liquid_volume[c] > 0)
-        moved.push_back({domain.liquid_centre[c], domain.liquid_volume[c]});
-    Guesses    none;
-    const auto ends = Tracer<dim>(domain.mesh).path_ends(positions(moved), velocity, dt, none);
+        {
+          moved.push_back({domain.liquid_centre[c], domain.liquid_volume[c]});
+          cells.push_back(c);
+        }
+    const auto ends = Tracer<dim>(domain.mesh).path_ends(positions(moved), velocity, dt, cells);
     for (unsigned int k = 0; k < moved.size(); ++k)
       moved[k].position = ends[k];
     return moved;

@@ -84,6 +84,8 @@ namespace treacle
         sorted.push_back(all[k]);
       }
     all = std::move(sorted);
+    for (const NearMarker<dim> &m : all)
+      position.push_back(m.marker.position);
     for (unsigned int begin = 0, end = 0; begin < all.size(); begin = end)
       {
         while (end < all.size() && order[end].first == order[begin].first)
@@ -117,7 +119,7 @@ namespace treacle
       for (unsigned int k = begin; k < end; ++k)
         {
           result[n] = &all[k];
-          n += (all[k].marker.position - x).norm_square() < reach * reach;
+          n += (position[k] - x).norm_square() < reach * reach;
         }
       result.resize(n);
     });

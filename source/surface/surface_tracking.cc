@@ -198,8 +198,11 @@ namespace treacle
         std::transform(offset.begin(), offset.end(), change.begin(), offset.begin(), std::plus<double>());
       }
     if (parts.size() > 0)
-      for (Marker<dim> &marker : state.markers)
-        marker.position -= parts.at(marker.position, offset) * marker.normal;
+      {
+        const std::vector<double> by = parts.at(positions(state.markers), offset);
+        for (unsigned int k = 0; k < by.size(); ++k)
+          state.markers[k].position -= by[k] * state.markers[k].normal;
+      }
     state.markers = to_owners(data.mesh, state.markers);
   }
 

@@ -221,8 +221,7 @@ namespace treacle
     const double v  = maximum_speed(state, domain);
     const double g  = maximum_gravity(domain, state.time);
     const double dt = longest();
-    return std::min(furthest_trace((v + g * dt) * dt) + 4 * domain.mesh.surface_size(),
-                    largest_reach(domain.mesh));
+    return std::min((v + g * dt) * dt + 4 * domain.mesh.surface_size(), largest_reach(domain.mesh));
   }
 
   template <int dim>

@@ -135,6 +135,13 @@ namespace treacle
                        const double                   dt,
                        Guesses                       &guesses) const;
 
+    /// Those of some points that are not found here.
+    void
+    evaluate_elsewhere(const std::vector<Point<dim>>     &x,
+                       const std::vector<unsigned int>   &elsewhere,
+                       const std::vector<NodeField<dim>> &fields,
+                       std::vector<double>               &values) const;
+
     void
     evaluate_here(const Location<dim>               &location,
                   const std::vector<NodeField<dim>> &fields,

@@ -57,9 +57,9 @@ namespace treacle
       return is_held[node] || part[node] == size() ? 0. : of_parts[part[node]];
     }
 
-    /// Linear between the nodes, at a point whose cell, or the leaf of it, is of this rank.
-    double
-    at(const Point<dim> &x, const std::vector<double> &of_parts) const;
+    /// Linear between the nodes. Collective.
+    std::vector<double>
+    at(const std::vector<Point<dim>> &x, const std::vector<double> &of_parts) const;
 
   private:
     /// Emitters hold these.

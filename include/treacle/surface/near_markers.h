@@ -65,6 +65,7 @@ namespace treacle
     const CubeGrid<dim>                                                   grid; ///< edge: the reach
     PerRank<unsigned int>                                                 sent; ///< markers, to ranks
     std::vector<NearMarker<dim>>                                          all;
+    std::vector<Point<dim>>                                               position; ///< theirs; many are looked at, few taken
     /// In all, of this rank's markers and then of those it was sent.
     std::vector<unsigned int>                                             place;
     /// Begin and end in all of what is in a cube and the two beside it along x.

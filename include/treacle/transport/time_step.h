@@ -79,8 +79,8 @@ namespace treacle
          const unsigned int       frame,
          const Motion            &motion) const;
 
-    /// How far from the surface the velocity must be known for the step from state.time (m).
-    /// Throws like next(). Collective.
+    /// How far from the surface the velocity must be known for the step from state.time (m): paths end in the liquid, or where they
+    /// began from it as far as before, for the air goes along with the surface. Throws like next(). Collective.
     double
     reach(const State<dim> &state, const LiquidDomain<dim> &domain) const;
 
@@ -88,7 +88,7 @@ namespace treacle
     double
     largest_reach(const Mesh<dim> &mesh) const
     {
-      return furthest_trace(prm.cfl * largest_surface_size(mesh)) + 3 * mesh.surface_size();
+      return prm.cfl * largest_surface_size(mesh) + 3 * mesh.surface_size();
     }
 
     /// How far phi must be a distance, if the velocity is known up to @p reach (m): nodal gradients
@@ -133,14 +133,6 @@ namespace treacle
                  const LiquidDomain<dim> &domain,
                  const Motion            &motion,
                  StepSize                &size) const;
-
-    /// Of a step in which the liquid moves by @p distance (m).
-    double
-    furthest_trace(const double distance) const
-    {
-      // BDF2 asks for the velocity before of where the surface will be
-      return (is_second_order() ? 2 : 1) * distance;
-    }
 
     const Parameters prm;
   };

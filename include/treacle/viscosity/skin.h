@@ -35,24 +35,27 @@ namespace treacle
       return spread * spread / (half * half + spread * spread);
     }
 
-    /// Half of what comes to the second variation of e : e, for gradients of the weights of two nodes (1/m): row of the first,
-    /// column of the second.
+    /// Is a cell one of these?
+    bool
+    has(const LocalIndex cell) const
+    {
+      return !part.empty() && part[cell] > 0;
+    }
+
+    /// Of one of these, half of what comes to the second variation of e : e, for gradients of the weights of two nodes (1/m): row of
+    /// the first, column of the second.
     Tensor<2, dim>
     block(const LocalIndex cell, const Tensor<1, dim> &g, const Tensor<1, dim> &other) const
     {
-      if (!has(cell))
-        return {};
       const Tensor<1, dim> &n = normal[cell], along_g = g - (g * n) * n, along_other = other - (other * n) * n;
       return part[cell] * (outer_product(g, other) + outer_product(along_g, along_other) -
                            (g * n) * (other * n) * outer_product(n, n));
     }
 
-    /// What comes to e, as stress over 2 mu, of a velocity gradient (1/s).
+    /// What comes to its e, as stress over 2 mu, of a velocity gradient (1/s).
     Tensor<2, dim>
     stress(const LocalIndex cell, const Tensor<2, dim> &gradient) const
     {
-      if (!has(cell))
-        return {};
       const Tensor<1, dim> &n          = normal[cell];
       const double          divergence = trace(gradient), along_normal = n * (gradient * n);
       return part[cell] * ((2 * divergence - along_normal) * Tensor<2, dim>(unit_symmetric_tensor<dim>()) -
@@ -60,12 +63,6 @@ namespace treacle
     }
 
   private:
-    bool
-    has(const LocalIndex cell) const
-    {
-      return !part.empty() && part[cell] > 0;
-    }
-
     std::vector<double>         part; ///< of each cell; empty: none
     std::vector<Tensor<1, dim>> normal;
   };
