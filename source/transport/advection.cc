@@ -18,6 +18,9 @@ namespace treacle
     /// How far below the surface the change along paths is found at nodes, in leaves.
     constexpr double deep_leaves = 4;
 
+    /// How far from the surface faces of the air begin, which few markers will find in the liquid, in leaves.
+    constexpr double outside_leaves = 0.25;
+
     template <int dim>
     std::vector<Point<dim>>
     owned_nodes(const Mesh<dim> &mesh)
@@ -243,10 +246,11 @@ namespace treacle
   }
 
   template <int dim>
-  NodeVector<dim>
-  Advection<dim>::change_at_nodes(const Past                    &past,
-                                  const Mesh<dim>               &mesh,
-                                  const std::vector<LocalIndex> &faces) const
+  typename Advection<dim>::AtNodes
+  Advection<dim>::at_nodes(const Carried                 &now,
+                           const Past                    *past,
+                           const Mesh<dim>               &mesh,
+                           const std::vector<LocalIndex> &faces) const
   {
     Vector is_needed = mesh.zeros(mesh.nodes);
     for (const LocalIndex f : faces)
@@ -261,13 +265,17 @@ namespace treacle
           nodes.push_back(node);
           ends.add_node(node);
         }
-    const std::vector<double> values = change_along(paths_to(std::move(ends), past.now), past);
-    NodeVector<dim>           change(mesh.nodes);
-    for (unsigned int i = 0; i < nodes.size(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-        change.component[d].local_element(nodes[i]) = values[dim * i + d];
-    change.update_ghost_values();
-    return change;
+    AtNodes    result{NodeVector<dim>(mesh.nodes), NodeVector<dim>(mesh.nodes)};
+    const auto set = [&](NodeVector<dim> &v, const std::vector<double> &values) {
+      for (unsigned int i = 0; i < values.size(); ++i)
+        v.component[i % dim].local_element(nodes[i / dim]) = values[i];
+      v.update_ghost_values();
+    };
+    Paths paths = paths_to(std::move(ends), now);
+    set(result.now, paths.values);
+    if (past != nullptr)
+      set(result.change, change_along(std::move(paths), *past));
+    return result;
   }
 
   template <int dim>
@@ -276,33 +284,40 @@ namespace treacle
   {
     const Mesh<dim>        &mesh  = *state.mesh;
     std::vector<LocalIndex> faces = faces_that_matter(state);
-    const double            deep = deep_leaves * mesh.surface_size();
-    const auto              shallow = // first those whose nodes are all in the liquid, but not deep
-      std::stable_partition(faces.begin(), faces.end(), [&](const LocalIndex f) {
+    // those of the air, then those whose nodes are all in the liquid, but not deep
+    const auto first_with_nodes = [&](const auto begin, const double lowest, const double highest) {
+      return std::stable_partition(begin, faces.end(), [&](const LocalIndex f) {
         return std::all_of(mesh.face_nodes[f].begin(), mesh.face_nodes[f].end(), [&](const auto node) {
-          return state.phi.local_element(node) <= 0 && state.phi.local_element(node) > -deep;
+          return state.phi.local_element(node) > lowest && state.phi.local_element(node) <= highest;
         });
       });
+    };
+    const auto liquid = first_with_nodes(faces.begin(), outside_leaves * mesh.surface_size(), std::numeric_limits<double>::max());
+    const auto deep   = first_with_nodes(liquid, -deep_leaves * mesh.surface_size(), 0);
     PathEnds<dim> ends = ends_in(mesh, velocity.carried[4]);
-    for (const LocalIndex f : faces)
-      ends.add_face(f);
+    std::for_each(liquid, faces.end(), [&](const LocalIndex f) { ends.add_face(f); });
     const auto add = [&](const auto begin, const double weight, const std::vector<double> &values) {
       for (unsigned int i = 0; i < values.size(); ++i)
         state.u.local_element(begin[i / dim]) += weight * mesh.face_normal[begin[i / dim]][i % dim] * values[i];
     };
     Carried now   = carried(fields_of(old.v), velocity.carried, dt, reach);
     Paths   paths = paths_to(std::move(ends), now);
-    add(faces.begin(), 1, paths.values);
+    add(liquid, 1, paths.values);
     if (&mesh == old.mesh.get())
       keep_what_nodes_miss(old, domain, difference, faces, state.u);
+    std::optional<Past> past;
     if (difference.before != 0)
+      past.emplace(this->past(std::move(now), reach));
+    const AtNodes nodes = past ? at_nodes(past->now, &*past, mesh, {faces.begin(), deep}) :
+                                 at_nodes(now, nullptr, mesh, {faces.begin(), liquid});
+    for (auto f = faces.begin(); f != liquid; ++f)
+      state.u.local_element(*f) += face_velocity(mesh, nodes.now, *f);
+    if (past)
       {
-        const Past            past   = this->past(std::move(now), reach);
-        const NodeVector<dim> change = change_at_nodes(past, mesh, {faces.begin(), shallow});
-        for (auto f = faces.begin(); f != shallow; ++f)
-          state.u.local_element(*f) -= difference.before * face_velocity(mesh, change, *f);
-        paths.drop(shallow - faces.begin());
-        add(shallow, -difference.before, change_along(std::move(paths), past));
+        for (auto f = faces.begin(); f != deep; ++f)
+          state.u.local_element(*f) -= difference.before * face_velocity(mesh, nodes.change, *f);
+        paths.drop(deep - liquid);
+        add(deep, -difference.before, change_along(std::move(paths), *past));
       }
     state.u.update_ghost_values();
   }

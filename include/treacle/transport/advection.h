@@ -174,12 +174,20 @@ namespace treacle
     std::vector<double>
     change_along(Paths &&paths, const Past &past) const;
 
-    /// The same at the nodes of some faces. Their mean is smoother than what is read at the faces,
-    /// which feeds short waves of a surface without viscosity; deep in the liquid it feeds vortices.
-    NodeVector<dim>
-    change_at_nodes(const Past                    &past,
-                    const Mesh<dim>               &mesh,
-                    const std::vector<LocalIndex> &faces) const;
+    /// The velocity of now where nodes come from, and by how much it changed in the step before along their paths.
+    struct AtNodes
+    {
+      NodeVector<dim> now, change;
+    };
+
+    /// At the nodes of some faces; no change without a past. The mean of the change is smoother than what is read at the faces, which
+    /// feeds short waves of a surface without viscosity; deep in the liquid it feeds vortices. In the air, of which faces count
+    /// only that markers are about to find in the liquid, all that is known is that of its nodes.
+    AtNodes
+    at_nodes(const Carried                 &now,
+             const Past                    *past,
+             const Mesh<dim>               &mesh,
+             const std::vector<LocalIndex> &faces) const;
 
     void
     advance_nodes(State<dim> &state, const double reach) const;
