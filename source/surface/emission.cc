@@ -3,6 +3,7 @@
 
 #include <treacle/base/exchange.h>
 #include <treacle/fields/moved_points.h>
+#include <treacle/mesh/tracer.h>
 #include <treacle/surface/emission.h>
 #include <treacle/surface/emitted_volume.h>
 
@@ -49,8 +50,8 @@ namespace treacle
       Vector                                           filled(mesh.nodes);
       for (LocalIndex node = 0; node < vertices.size(); ++node)
         keep_error(error, [&] {
-          vertices[node] =
-            emitted.vertex(mesh.node_position[node], state.phi.local_element(node), psi[node]);
+          vertices[node] = emitted.vertex(
+            mesh.node_position[node], state.phi.local_element(node), psi[node], state.v.value(node));
           if (node < mesh.n_owned_nodes())
             filled.local_element(node) = vertices[node].phi.after;
         });
@@ -80,11 +81,16 @@ namespace treacle
     /// about there only those outside would be left, and make it wider on its way (one of two leaves' radius by 5 % of its volume).
     template <int dim>
     void
-    settle_markers(State<dim> &state, const Scene<dim> &scene, const double h, const double time, const double dt)
+    settle_markers(State<dim>                &state,
+                   const Scene<dim>          &scene,
+                   const EmitterFilling<dim> &filling,
+                   const double               h,
+                   const double               time,
+                   const double               dt)
     {
       constexpr double    inside = 0.1, about = 0.25, across = 0.02; // leaves
       constexpr double    alike = 0.45;                              // cosine of normals
-      const Distance<dim> distance = distance_to_filled(scene, h, time);
+      const Distance<dim> distance  = distance_to_filled(scene, h, time);
       const auto          is_behind = [&](const Marker<dim> &marker, const Marker<dim> &on) {
         if (!(on.normal * marker.normal > alike))
           return false;
@@ -92,16 +98,19 @@ namespace treacle
         return ahead < across * h && on.position.distance(marker.position) < about * h + std::max(0., -ahead);
       };
       std::vector<Marker<dim>> kept, on_emitter;
-      const auto               settle = [&](const Marker<dim> &marker) {
-        const double depth = -distance(marker.position);
-        if (depth > -about * h)
+      const auto               settle = [&](const Marker<dim> &marker, const Tensor<1, dim> &v) {
+        if (distance(marker.position) < about * h)
           if (const auto on = marker_on(distance, marker.position, 1e-3 * h); is_behind(marker, on))
             return on_emitter.push_back(on);
-        if (depth <= inside * h)
+        if (filling.distance(marker.position, v) >= -inside * h)
           kept.push_back(marker);
       };
-      std::string error;
-      keep_error(error, [&] { std::for_each(state.markers.begin(), state.markers.end(), settle); });
+      const std::vector<double> v = Tracer<dim>(*state.mesh).evaluate(positions(state.markers), fields_of(state.v));
+      std::string               error;
+      keep_error(error, [&] {
+        for (unsigned int k = 0; k < state.markers.size(); ++k)
+          settle(state.markers[k], Tensor<1, dim>(ArrayView<const double>(&v[k * dim], dim)));
+      });
       throw_first(state.mesh->communicator(), error);
       clamp(*state.mesh, on_emitter);
       kept.insert(kept.end(), on_emitter.begin(), on_emitter.end());
@@ -119,11 +128,12 @@ namespace treacle
                  middle    = 0.5 * (start + end);
     std::vector<Parcel<dim>> inflow;
     const auto fill_with = [&](const double time, const double earlier, const double way) {
-      const auto part = fill_emitters(state, data, EmitterFilling<dim>(scene, h, time, earlier, way));
+      const EmitterFilling<dim> filling(scene, h, time, earlier, way);
+      const auto                part = fill_emitters(state, data, filling);
       inflow.insert(inflow.end(), part.begin(), part.end());
       if (state.material)
         set_material(state, scene, time);
-      settle_markers(state, scene, h, time, way);
+      settle_markers(state, scene, filling, h, time, way);
     };
     const auto any = [&](const auto &is) {
       return std::any_of(scene.emitters().begin(), scene.emitters().end(), is);

@@ -81,7 +81,7 @@ namespace treacle
           {
             const Vertex &a = vertices[i], &b = vertices[j];
             vertices.push_back(
-              emitted.vertex(a.x + 0.5 * (b.x - a.x), 0.5 * (a.old + b.old), 0.5 * (a.psi + b.psi)));
+              emitted.vertex(a.x + 0.5 * (b.x - a.x), 0.5 * (a.old + b.old), 0.5 * (a.psi + b.psi), 0.5 * (a.v + b.v)));
           }
         return entry->second;
       }

@@ -4,12 +4,20 @@
 #include <treacle/geometry/beyond_wall.h>
 #include <treacle/surface/emitter_filling.h>
 
+#include <boost/math/tools/minima.hpp>
+
 namespace treacle
 {
   namespace
   {
     /// In leaves from emitters: farther off these do not go on into solids.
     constexpr double farthest = 5;
+
+    /// What moves with the liquid is there but for what the velocity between nodes is off, a part of its way.
+    constexpr double narrower = 0.01;
+
+    /// What is as far from a surface (leaves) does not change it.
+    constexpr double near = 0.5;
 
     /// How far a point is beyond the box or in a solid (m), negative in the open. What flows along a wall comes from it, not from beyond.
     template <int dim>
@@ -57,27 +65,73 @@ namespace treacle
     , h(h)
     , time(time)
     , dt(dt)
+    , farthest_way(16 * h) // more than any step allows
     , filled(distance_to_filled(scene, h, time))
     , filled_before(distance_to_filled(scene, h, earlier))
   {}
 
   template <int dim>
+  bool
+  EmitterFilling<dim>::is_far(const double to_emitter, const Tensor<1, dim> &v) const
+  {
+    return to_emitter >= 2 * h + std::min(2 * dt * v.norm(), farthest_way);
+  }
+
+  template <int dim>
+  double
+  EmitterFilling<dim>::to_filled(const Point<dim> &x, const double to_emitter) const
+  {
+    return scene.has_solids() && to_emitter <= farthest * h ? filled(x) : to_emitter;
+  }
+
+  template <int dim>
+  double
+  EmitterFilling<dim>::swept(const Point<dim> &x, const Tensor<1, dim> &way, const double to_filled) const
+  {
+    const double length = way.norm();
+    if (!(length > 0) || length > farthest_way || to_filled > length + near * h)
+      return to_filled;
+    const auto at = [&](const double part) { return filled(x - part * way); };
+    // a distance is convex along a line if its body is: most points are beside streams that flow on, where it is least at the end
+    constexpr double step = 1e-3, flat = 1e-3; // of the way; m/m
+    const double     at_end = at(1), slope = (at_end - at(1 - step)) / (step * length),
+                 lowest = std::max(at_end - slope * length, 0.5 * (to_filled + at_end - length));
+    if (slope < flat || lowest > near * h)
+      return std::min(to_filled, at_end + narrower * length);
+    constexpr int        bits = 6; // of the way
+    boost::uintmax_t     most = 10;
+    return std::min(to_filled, boost::math::tools::brent_find_minima(at, 0., 1., bits, most).second + narrower * length);
+  }
+
+  template <int dim>
+  double
+  EmitterFilling<dim>::distance(const Point<dim> &x, const Tensor<1, dim> &v) const
+  {
+    const double here = to_filled(x, scene.emitter_distance(x, time));
+    return is_far(here, v) ? here : swept(x, 0.5 * dt * (scene.emitter_velocity(x, time) + v), here);
+  }
+
+  template <int dim>
   typename EmitterFilling<dim>::Phi
-  EmitterFilling<dim>::phi(const Point<dim> &x, const double old) const
+  EmitterFilling<dim>::phi(const Point<dim> &x, const double old, const Tensor<1, dim> &v) const
   {
     const auto [emitter, to_emitter] = scene.nearest_emitter(x, time);
-    const double distance            = scene.has_solids() && to_emitter <= farthest * h ? filled(x) : to_emitter;
-    if (distance >= 2 * h) // what flowed in is no other than what was there
-      return {std::min(old, distance), distance, distance};
-    const Point<dim> from  = x - dt * emitter->velocity(x, time);
-    const double     depth = depth_beyond(from, scene, time);
-    // what flowed on from there has sharp edges here; what phi shows of it bulges beside them for their volume
-    constexpr double bulge  = 0.1; // leaves
-    const double     before = std::max(std::min(old + bulge * h, filled_before(from)), depth);
-    const bool       is_skin =
-      depth > 0 && old > -h && filled(in_box(from, scene)) > 0;
-    const double inside = std::max(distance, depth_beyond(x, scene, time)); // where walls bound both, neither has more
-    return {std::min(is_skin ? std::max(old, depth) : old, distance), inside, std::max(inside, before)};
+    if (is_far(to_emitter, v)) // what flowed in is no other than what was there
+      return {std::min(old, to_emitter), to_emitter, to_emitter};
+    const Tensor<1, dim> way   = dt * emitter->velocity(x, time);
+    const Point<dim>     from  = x - way;
+    const double         depth = depth_beyond(from, scene, time), here = to_filled(x, to_emitter),
+                 flowed = filled_before(from);
+    // what flowed on from there has sharp edges here; what phi shows of it bulges beside them for their volume. Outside of emitters it has
+    // come to stay
+    constexpr double bulge    = 0.1; // leaves
+    const double     before   = std::max(std::min(here > 0 ? old : old + bulge * h, flowed), depth);
+    const double     distance = before < 0 || here < -near * h ? here : swept(x, 0.5 * (way + dt * v), here);
+    const bool       is_skin  = depth > 0 && old > -h && filled(in_box(from, scene)) > 0;
+    // where walls bound both, neither has more; nor beside streams that flow on, whatever the velocity between nodes is off
+    const double inside = here > 0 && before < 0 ? before : std::max(distance, depth_beyond(x, scene, time)),
+                 kept   = here > 0 && distance > 0 && before < inside + 2 * narrower * way.norm() ? inside : std::max(inside, before);
+    return {std::min(is_skin ? std::max(old, depth) : old, distance), inside, kept};
   }
 
 #define INSTANTIATE(dim)                                                                                 \

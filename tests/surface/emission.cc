@@ -106,6 +106,29 @@ pour_straight(const MPI_Comm &comm)
         << (std::abs(won) < 0.03 * poured ? "less than 3 %" : "TOO MUCH, " + std::to_string(won / poured)) << std::endl;
 }
 
+/// A box that pours towards an edge fills all that its liquid passes in a step, not only where that begins and ends.
+template <int dim>
+void
+pour_askew(const MPI_Comm &comm, const unsigned int level)
+{
+  const double      time = 0.24, slanted = std::sqrt(0.5);
+  const std::string corner = dim == 2 ? "" : "0.38, ", other_corner = dim == 2 ? "" : "0.63, ", along = std::to_string(slanted);
+  const auto        rows = run_scene<dim>(comm,
+                                   "set End time = " + std::to_string(time) + "\nset Frame interval = 10\nset Maximum time step = 0.06\n" +
+                                     mesh_section(level) + "subsection Gravity\nset Acceleration = " + (dim == 2 ? "0; 0" : "0; 0; 0") +
+                                     "\nend\nsubsection Material\nset Viscosity = 1\nend\n"
+                                     "subsection Emitter 1\nset Shape = box\nset Lower corner = 0.21, " +
+                                     corner + "0.56\nset Upper corner = 0.46, " + other_corner + "0.81\nset Velocity = " + along +
+                                     (dim == 2 ? "; -" : "; 0; -") + along + "\nend\n",
+                                   0,
+                                   0,
+                                   1);
+  const double poured = rows.back().at(dim == 2 ? "Emitted volume (m^2)" : "Emitted volume (m^3)"),
+               error = poured / (time * 2 * slanted * std::pow(0.25, dim - 1)) - 1;
+  out() << dim << "D askew: emitted " << (std::abs(error) < 0.015 ? "as much as flows out" : "OFF, " + std::to_string(error))
+        << std::endl;
+}
+
 /// One that fills a channel, in 3D a quarter of a pipe beside two planes of symmetry, up to its wall; neither the wall nor its end lies on
 /// sides of leaves. What it pours comes out at the other end.
 template <int dim>
@@ -276,6 +299,8 @@ start(const int argc, char **argv)
     pour_from_ceiling<2>(comm, level + 1);
     pour_from_ceiling<3>(comm, level);
     pour_straight(comm);
+    pour_askew<2>(comm, level + 1);
+    pour_askew<3>(comm, level);
     pour_through_channel<2>(comm);
     pour_through_channel<3>(comm);
     creep_through_channel<2>(comm);

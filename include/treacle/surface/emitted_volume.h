@@ -25,14 +25,15 @@ namespace treacle
       Point<dim>                        x;
       double                            old; ///< phi
       double                            psi; ///< distance to solids
+      Tensor<1, dim>                    v;   ///< of the liquid (m/s)
       typename EmitterFilling<dim>::Phi phi;
     };
     using Vertices = std::array<Vertex, dim + 1>;
 
     Vertex
-    vertex(const Point<dim> &x, const double old, const double psi) const
+    vertex(const Point<dim> &x, const double old, const double psi, const Tensor<1, dim> &v) const
     {
-      return {x, old, psi, filling.phi(x, old)};
+      return {x, old, psi, v, filling.phi(x, old, v)};
     }
 
     /// (m^dim)

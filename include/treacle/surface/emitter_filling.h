@@ -25,18 +25,35 @@ namespace treacle
     struct Phi
     {
       double after;
-      double inside; ///< emitters, up to walls
+      double inside; ///< of what emitters have filled, up to walls
       double kept;   ///< inside, what came from there or was there already
     };
 
-    /// Paths that lead back through a wall bring none: what sticks to the ceiling beside an emitter, as a skin
-    /// of it, must not become a second one.
+    /// Where the liquid has the velocity @p v (m/s). Paths that lead back through a wall bring none: what sticks to the ceiling beside an
+    /// emitter, as a skin of it, must not become a second one.
     Phi
-    phi(const Point<dim> &x, const double old) const;
+    phi(const Point<dim> &x, const double old, const Tensor<1, dim> &v) const;
+
+    /// To what emitters fill, or have filled on the way of their liquid in this time: one that is moved askew is more than where it
+    /// begins and ends, and its liquid would have notches there, step by step.
+    double
+    distance(const Point<dim> &x, const Tensor<1, dim> &v) const;
 
   private:
+    /// Is nothing filled so far from an emitter (m), where the liquid has this velocity? It was not twice as fast when it came out.
+    bool
+    is_far(const double to_emitter, const Tensor<1, dim> &v) const;
+
+    /// To emitters alone, where a point is at a distance @p to_emitter from them.
+    double
+    to_filled(const Point<dim> &x, const double to_emitter) const;
+
+    /// See distance(); of a @p way (m) in the time.
+    double
+    swept(const Point<dim> &x, const Tensor<1, dim> &way, const double to_filled) const;
+
     const Scene<dim> &scene;
-    const double      h, time, dt;
+    const double      h, time, dt, farthest_way;
     Distance<dim>     filled, filled_before;
   };
 } // namespace treacle

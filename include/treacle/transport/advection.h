@@ -9,8 +9,7 @@
 #include <treacle/mesh/tracer.h>
 #include <treacle/surface/marker_motion.h>
 #include <treacle/surface/surface_geometry.h>
-#include <treacle/transport/free_fall.h>
-#include <treacle/transport/path_ends.h>
+#include <treacle/transport/carried_fields.h>
 #include <treacle/transport/velocity_in_time.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -116,84 +115,15 @@ namespace treacle
     NodeVector<dim>
     at_nodes_of(const Mesh<dim> &mesh, const NodeVector<dim> &v) const;
 
-    /// Old node fields, with what the scheme adds to them where they are read.
-    struct Carried
-    {
-      std::vector<NodeField<dim>> fields;
-      std::vector<Vector>         corrections;
-    };
-
-    /// Fields that @p velocity carries on for dt.
-    Carried
-    carried(std::vector<NodeField<dim>> fields,
-            const VelocityInStep<dim>  &velocity,
-            const double                dt,
-            const double                reach) const;
-
-    /// The velocity of now and of the step before, and that of the way between.
-    struct Past
-    {
-      Carried         now, before;
-      NodeVector<dim> between;
-      FreeFall<dim>   fall;
-    };
-
-    /// Of a state that has a velocity before.
-    Past
-    past(Carried &&now, const double reach) const;
-
-    /// The paths of a step: where they come from, the cells there, and the velocity of now there
-    /// ([path * dim + component]).
-    struct Paths
-    {
-      std::vector<Point<dim>> from;
-      Guesses                 cells;
-      std::vector<double>     values;
-
-      /// The first n.
-      void
-      drop(const unsigned int n)
-      {
-        from.erase(from.begin(), from.begin() + n);
-        cells.erase(cells.begin(), cells.begin() + n);
-        values.erase(values.begin(), values.begin() + n * dim);
-      }
-    };
-
-    Paths
-    paths_to(PathEnds<dim> &&ends, const Carried &now) const;
-
-    /// To be filled with nodes or faces of @p mesh.
-    PathEnds<dim>
-    ends_in(const Mesh<dim> &mesh, const NodeVector<dim> &v) const
-    {
-      return {mesh, &mesh == old.mesh.get() ? &v : nullptr};
-    }
-
-    /// By how much the velocity changed in the step before along these paths, in place of the values.
-    std::vector<double>
-    change_along(Paths &&paths, const Past &past) const;
-
-    /// The velocity of now where nodes come from, and by how much it changed in the step before along their paths.
-    struct AtNodes
-    {
-      NodeVector<dim> now, change;
-    };
-
-    /// At the nodes of some faces; no change without a past. The mean of the change is smoother than what is read at the faces, which
-    /// feeds short waves of a surface without viscosity; deep in the liquid it feeds vortices. In the air, of which faces count
-    /// only that markers are about to find in the liquid, all that is known is that of its nodes.
-    AtNodes
-    at_nodes(const Carried                 &now,
-             const Past                    *past,
-             const Mesh<dim>               &mesh,
-             const std::vector<LocalIndex> &faces) const;
+    /// Fields that @p velocity carries on for a time (s), as the scheme does.
+    CarriedFields<dim>
+    carried(std::vector<NodeField<dim>> &&fields,
+            const VelocityInStep<dim>   &velocity,
+            const double                 time,
+            const double                 reach) const;
 
     void
     advance_nodes(State<dim> &state, const double reach) const;
-
-    void
-    advance_faces(State<dim> &state, const double reach) const;
 
     const Parameters            prm;
     const State<dim>           &old;
