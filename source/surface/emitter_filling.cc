@@ -92,12 +92,13 @@ namespace treacle
     if (!(length > 0) || length > farthest_way || to_filled > length + near * h)
       return to_filled;
     const auto at = [&](const double part) { return filled(x - part * way); };
-    // a distance is convex along a line if its body is: most points are beside streams that flow on, where it is least at the end
-    constexpr double step = 1e-3, flat = 1e-3; // of the way; m/m
+    // a distance is convex along a line if its body is: most points are beside streams that flow on, where it is least at the end, and phi
+    // what has come to be there, which may be less
+    constexpr double step = 1e-3, flat = 0.05; // of the way; m/m
     const double     at_end = at(1), slope = (at_end - at(1 - step)) / (step * length),
                  lowest = std::max(at_end - slope * length, 0.5 * (to_filled + at_end - length));
     if (slope < flat || lowest > near * h)
-      return std::min(to_filled, at_end + narrower * length);
+      return to_filled;
     constexpr int        bits = 6; // of the way
     boost::uintmax_t     most = 10;
     return std::min(to_filled, boost::math::tools::brent_find_minima(at, 0., 1., bits, most).second + narrower * length);
@@ -128,10 +129,9 @@ namespace treacle
     const double     before   = std::max(std::min(here > 0 ? old : old + bulge * h, flowed), depth);
     const double     distance = before < 0 || here < -near * h ? here : swept(x, 0.5 * (way + dt * v), here);
     const bool       is_skin  = depth > 0 && old > -h && filled(in_box(from, scene)) > 0;
-    // where walls bound both, neither has more; nor beside streams that flow on, whatever the velocity between nodes is off
-    const double inside = here > 0 && before < 0 ? before : std::max(distance, depth_beyond(x, scene, time)),
-                 kept   = here > 0 && distance > 0 && before < inside + 2 * narrower * way.norm() ? inside : std::max(inside, before);
-    return {std::min(is_skin ? std::max(old, depth) : old, distance), inside, kept};
+    // where walls bound both, neither has more
+    const double inside = here > 0 && before < 0 ? before : std::max(distance, depth_beyond(x, scene, time));
+    return {std::min(is_skin ? std::max(old, depth) : old, distance), inside, std::max(inside, before)};
   }
 
 #define INSTANTIATE(dim)                                                                                 \
