@@ -147,7 +147,7 @@ namespace treacle
   Advection<dim>::advance_nodes(State<dim> &state, const double reach) const
   {
     const Mesh<dim> &mesh = *state.mesh;
-    PathEnds<dim>    ends(mesh, &mesh == old.mesh.get() ? &velocity.surface[4] : nullptr);
+    PathEnds<dim>    ends(mesh, *old.mesh, velocity.surface[4]);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       ends.add_node(node);
     const std::vector<Point<dim>> from =

@@ -131,7 +131,7 @@ namespace treacle
         is_needed.local_element(node) = 1;
     is_needed.compress(VectorOperation::add);
     std::vector<LocalIndex> nodes;
-    PathEnds<dim>           ends = ends_in(mesh);
+    PathEnds<dim>           ends(mesh, *old.mesh, velocity.carried[4]);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       if (is_needed.local_element(node) > 0)
         {
@@ -157,7 +157,7 @@ namespace treacle
   {
     const Mesh<dim>      &mesh = *state.mesh;
     const FaceGroups<dim> faces(state);
-    PathEnds<dim>         ends = ends_in(mesh);
+    PathEnds<dim>         ends(mesh, *old.mesh, velocity.carried[4]);
     std::for_each(faces.liquid, faces.all.end(), [&](const LocalIndex f) { ends.add_face(f); });
     const auto add = [&](const auto begin, const double weight, const std::vector<double> &values) {
       for (unsigned int i = 0; i < values.size(); ++i)

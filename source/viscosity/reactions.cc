@@ -30,9 +30,11 @@ namespace treacle
     {
       Tensor<2, dim> result;
       if (!stiffness.strain.empty())
-        result += stiffness.strain[cell] * (grad + transpose(grad));
-      if (!stiffness.strain.empty() && stiffness.skin.has(cell))
-        result += 2 * stiffness.strain[cell] * stiffness.skin.stress(cell, grad);
+        {
+          result += stiffness.strain[cell] * (grad + transpose(grad));
+          if (stiffness.skin.has(cell))
+            result += 2 * stiffness.strain[cell] * stiffness.skin.stress(cell, grad);
+        }
       if (!stiffness.gradient.empty())
         result += stiffness.gradient[cell] * grad;
       return result;

@@ -69,13 +69,6 @@ namespace treacle
     Paths
     paths_to(PathEnds<dim> &&ends, const CarriedFields<dim> &now) const;
 
-    /// To be filled with nodes or faces of @p mesh.
-    PathEnds<dim>
-    ends_in(const Mesh<dim> &mesh) const
-    {
-      return {mesh, &mesh == old.mesh.get() ? &velocity.carried[4] : nullptr};
-    }
-
     /// By how much the velocity changed in the step before along these paths, in place of the values.
     std::vector<double>
     change_along(Paths &&paths, const Past &past) const;

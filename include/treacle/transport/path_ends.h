@@ -18,10 +18,10 @@ namespace treacle
     Guesses                     cells;
     std::vector<Tensor<1, dim>> velocity; ///< m/s
 
-    /// Of @p mesh. @p v is that at its nodes at the end of paths, null where these lead through another mesh.
-    PathEnds(const Mesh<dim> &mesh, const NodeVector<dim> *v)
+    /// Of @p mesh. Paths lead through @p passed, and have at its nodes the velocity @p v at their end. Both must outlive this object.
+    PathEnds(const Mesh<dim> &mesh, const Mesh<dim> &passed, const NodeVector<dim> &v)
       : mesh(mesh)
-      , v(v)
+      , v(&mesh == &passed ? &v : nullptr)
     {}
 
     void
@@ -46,7 +46,7 @@ namespace treacle
 
   private:
     const Mesh<dim>       &mesh;
-    const NodeVector<dim> *v;
+    const NodeVector<dim> *v; ///< null in another mesh
   };
 } // namespace treacle
 
