@@ -57,7 +57,7 @@ namespace treacle
           const unsigned int size = start[part + 1] - start[part], k = node.n;
           if (size == 0)
             continue;
-          set_disc(node, k, start[part], start[part + 1]);
+          set_box(node, k, start[part], start[part + 1]);
           node.is_facet[k] = size == 1;
           node.child[k]    = size == 1 ? order[start[part]] : append(start[part], start[part + 1]);
           ++node.n;
@@ -90,37 +90,76 @@ namespace treacle
       return middle;
     }
 
-    /// The disc @p k of a node.
+    /// The box @p k of a node.
     void
-    set_disc(Node &node, const unsigned int k, const unsigned int begin, const unsigned int end) const
+    set_box(Node &node, const unsigned int k, const unsigned int begin, const unsigned int end) const
     {
-      Point<dim>     lower = facets[order[begin]][0], upper = lower;
-      Tensor<1, dim> normal;
+      const Tensor<2, dim> axes   = axes_of(begin, end);
+      const Point<dim>    &x0     = facets[order[begin]][0];
+      Tensor<1, dim>       lower, upper; // along the axes, from x0
+      for (unsigned int i = begin; i < end; ++i)
+        for (const Point<dim> &x : facets[order[i]])
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const double along = axes[d] * (x - x0);
+              lower[d]           = std::min(lower[d], along);
+              upper[d]           = std::max(upper[d], along);
+            }
+      const Tensor<1, dim> centre = (x0 - origin) + 0.5 * (lower + upper) * axes;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          node.centre[d][k]     = centre[d] / extent;
+          node.normal[d][k]     = axes[0][d];
+          node.tangent[d][k]    = axes[1][d];
+          node.half_width[d][k] = 0.5 * (upper[d] - lower[d]) / extent;
+        }
+    }
+
+    /// The mean normal of facets, and in 3D the direction across it to their vertex that is furthest from the middle.
+    Tensor<2, dim>
+    axes_of(const unsigned int begin, const unsigned int end) const
+    {
+      Tensor<1, dim> normal, middle;
       for (unsigned int i = begin; i < end; ++i)
         {
           normal += area_vector<dim>(facets[order[i]]);
-          for (const Point<dim> &x : facets[order[i]])
-            extend(lower, upper, x);
+          middle += sum_of_vertices[order[i]] / (dim * double(end - begin));
         }
-      const Point<dim> centre = lower + 0.5 * (upper - lower);
-      if (const double norm = normal.norm(); norm > 0)
-        normal /= norm;
-      double half_thickness = 0, squared_radius = 0;
+      const double norm = normal.norm();
+      if (!(norm > 0))
+        return Tensor<2, dim>(unit_symmetric_tensor<dim>());
+      normal /= norm;
+      Tensor<2, dim> axes;
+      axes[0] = normal;
+      if constexpr (dim == 2)
+        axes[1] = -cross_product_2d(normal);
+      else
+        {
+          axes[1] = unit_across(normal, begin, end, middle);
+          axes[2] = cross_product_3d(axes[0], axes[1]);
+        }
+      return axes;
+    }
+
+    /// Towards the vertex of facets that is furthest across from a point; any direction across it where all of them are on the normal.
+    Tensor<1, dim>
+    unit_across(const Tensor<1, dim> &normal, const unsigned int begin, const unsigned int end, const Tensor<1, dim> &from) const
+    {
+      const auto     across = [&](const Tensor<1, dim> &w) { return w - (w * normal) * normal; };
+      Tensor<1, dim> furthest;
       for (unsigned int i = begin; i < end; ++i)
         for (const Point<dim> &x : facets[order[i]])
-          {
-            const Tensor<1, dim> w     = x - centre;
-            const double         along = w * normal;
-            half_thickness             = std::max(half_thickness, std::abs(along));
-            squared_radius             = std::max(squared_radius, w * w - along * along);
-          }
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          node.centre[d][k] = (centre[d] - origin[d]) / extent;
-          node.normal[d][k] = normal[d];
-        }
-      node.radius[k]         = std::sqrt(squared_radius) / extent;
-      node.half_thickness[k] = half_thickness / extent;
+          if (const Tensor<1, dim> w = across(x - from); w.norm_square() > furthest.norm_square())
+            furthest = w;
+      if (const double norm = furthest.norm(); norm > 0)
+        if (const Tensor<1, dim> unit = across(furthest / norm); unit.norm() > 0.5) // not what rounding left
+          return unit / unit.norm();
+      unsigned int axis = 0;
+      for (unsigned int d = 1; d < dim; ++d)
+        if (std::abs(normal[d]) < std::abs(normal[axis]))
+          axis = d;
+      const Tensor<1, dim> any = across(Point<dim>::unit_vector(axis));
+      return any / any.norm();
     }
 
     const std::vector<Facet> &facets;

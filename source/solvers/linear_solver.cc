@@ -5,6 +5,7 @@
 #include <treacle/base/exceptions.h>
 #include <treacle/base/work.h>
 #include <treacle/solvers/decoupled.h>
+#include <treacle/solvers/gauss_seidel.h>
 #include <treacle/solvers/linear_solver.h>
 
 #include <deal.II/lac/solver_cg.h>
@@ -23,6 +24,7 @@ namespace treacle
 
     const Choice<Preconditioner> preconditioners{
       {"amg", Preconditioner::amg},
+      {"gauss seidel", Preconditioner::gauss_seidel},
       {"incomplete cholesky", Preconditioner::incomplete_cholesky},
       {"jacobi", Preconditioner::jacobi},
       {"none", Preconditioner::none}};
@@ -38,13 +40,14 @@ namespace treacle
     add_choice(prm,
                "Preconditioner",
                preconditioner,
-               "Of the conjugate gradient method: algebraic multigrid, incomplete "
-               "Cholesky factorization, diagonal, none." +
+               "Of the conjugate gradient method: algebraic multigrid, symmetric "
+               "Gauss-Seidel, incomplete Cholesky factorization, diagonal, none." +
                  remark,
                preconditioners);
     prm.add_parameter("Relative tolerance",
                       relative_tolerance,
-                      "Norm of the residual over that of the right-hand side.",
+                      "Norm of the residual over that of the right-hand side; with gauss "
+                      "seidel both behind a sweep.",
                       Patterns::Double(1e-15, 0.1));
     prm.add_parameter("Maximum iterations",
                       maximum_iterations,
@@ -147,6 +150,12 @@ namespace treacle
                   z *= factor;
               };
             }
+          case Preconditioner::gauss_seidel:
+            return [sweeps = std::make_shared<const GaussSeidel>(matrix)](Vector &z, const Vector &r) {
+              Vector between(r);
+              sweeps->forward(between, r);
+              sweeps->backward(z, between);
+            };
           case Preconditioner::incomplete_cholesky:
             return make(std::make_shared<TrilinosWrappers::PreconditionIC>());
           case Preconditioner::jacobi:
@@ -170,6 +179,7 @@ namespace treacle
     , make([kind = prm.preconditioner, &matrix, near_null] {
       return make_preconditioner(kind, matrix, near_null);
     })
+    , sweeps_of(prm.preconditioner == Preconditioner::gauss_seidel ? &matrix : nullptr)
   {}
 
   LinearSolver::LinearSolver(const Parameters  &parameters,
@@ -203,6 +213,8 @@ namespace treacle
               "without bound; a smaller Maximum time step may help.");
   }
 
+  LinearSolver::~LinearSolver() = default;
+
   unsigned int
   LinearSolver::solve(Vector &x, const Vector &b, const double scale) const
   {
@@ -213,14 +225,52 @@ namespace treacle
         return 0;
       }
     require_finite(norm, name);
-    SolverControl control(prm.maximum_iterations, prm.relative_tolerance * std::max(norm, scale));
+    if (sweeps_of != nullptr)
+      return solve_between_sweeps(x, b, std::max(norm, scale) / norm);
+    return iterate(matrix, [this](Vector &z, const Vector &r) { precondition(z, r); }, x, b, norm, std::max(norm, scale));
+  }
+
+  unsigned int
+  LinearSolver::solve_between_sweeps(Vector &x, const Vector &b, const double factor) const
+  {
+    Vector r(b), y(b), correction(b);
+    matrix(r, x);
+    r.sadd(-1, 1, b);
+    if (r.l2_norm() <= prm.relative_tolerance * factor * b.l2_norm())
+      return 0;
+    if (!sweeps)
+      {
+        ++Work::here().preconditioners_made;
+        sweeps = std::make_unique<const GaussSeidel>(*sweeps_of);
+      }
+    sweeps->forward(y, b);
+    const double norm = y.l2_norm();
+    sweeps->forward(y, r);
+    correction                 = 0;
+    const auto         product = [this](Vector &z, const Vector &p) {
+      ++Work::here().products;
+      sweeps->vmult(z, p);
+    };
+    const unsigned int n =
+      iterate(product, [](Vector &z, const Vector &p) { z = p; }, correction, y, norm, factor * norm);
+    sweeps->backward(y, correction);
+    x += y;
+    return n;
+  }
+
+  unsigned int
+  LinearSolver::iterate(const Operator &product,
+                        const Operator &preconditioned,
+                        Vector         &x,
+                        const Vector   &b,
+                        const double    norm,
+                        const double    scale) const
+  {
+    SolverControl control(prm.maximum_iterations, prm.relative_tolerance * scale);
     try
       {
         SolverCG<Vector> solver(control);
-        solver.solve(Multiplies<Vector>{matrix},
-                     x,
-                     b,
-                     Multiplies<Vector>{[&](Vector &z, const Vector &r) { precondition(z, r); }});
+        solver.solve(Multiplies<Vector>{product}, x, b, Multiplies<Vector>{preconditioned});
       }
     catch (const SolverControl::NoConvergence &failure)
       {

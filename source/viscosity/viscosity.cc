@@ -105,7 +105,7 @@ namespace treacle
     solver.add_parameters(prm,
                           "Viscosity",
                           " The mapping face coupled takes amg as a preconditioner of MINRES at the "
-                          "nodes, and incomplete Cholesky as the diagonal.");
+                          "nodes, the others but none as the diagonal.");
   }
 
   template <int dim>

@@ -12,10 +12,10 @@
 
 namespace treacle
 {
-  /// A tree of flat discs around facets (2D: segments, 3D: triangles), to look at the facets
-  /// near a point, nearer discs first. A disc lies along the surface, so that from beside it many
-  /// fewer come into question than boxes would; and of Boost's R-tree, which finds the k nearest
-  /// boxes, it is known only afterwards how many it takes for the nearest facet.
+  /// A tree of flat boxes around facets (2D: segments, 3D: triangles), to look at the facets near a point, nearer boxes first. A box
+  /// lies along the surface, and along its facets where these are long and narrow, so that from beside it many fewer come into
+  /// question than boxes along the axes would; and of Boost's R-tree, which finds the k nearest boxes, it is known only afterwards
+  /// how many it takes for the nearest facet.
   template <int dim>
   class FacetTree
   {
@@ -26,7 +26,7 @@ namespace treacle
 
     explicit FacetTree(const std::vector<Facet> &facets);
 
-    /// Call @p visit with the number of each facet whose disc may be closer to @p x than a
+    /// Call @p visit with the number of each facet whose box may be closer to @p x than a
     /// radius (m), which is @p radius first and then what @p visit returned last.
     template <typename Visit>
     void
@@ -73,16 +73,17 @@ namespace treacle
   private:
     using Four = std::array<float, 4>;
 
-    /// Four discs (3D), or rectangles, each of a facet or of another node with all that is below it; in single precision, for what
+    /// Four boxes, each of a facet or of another node with all that is below it; in single precision, for what
     /// counts is how many of them the caches hold. Lengths are in extents.
     struct Node
     {
-      std::array<Four, dim>       centre; ///< from the origin
-      std::array<Four, dim>       normal;
-      Four                        radius, half_thickness; ///< across the normal and along it
+      std::array<Four, dim>       centre;     ///< from the origin
+      std::array<Four, dim>       normal;     ///< the first axis of a box
+      std::array<Four, dim>       tangent;    ///< the second; the third is perpendicular to both
+      std::array<Four, dim>       half_width; ///< along the axes
       std::array<unsigned int, 4> child;
       std::array<bool, 4>         is_facet;
-      unsigned int                n; ///< discs that there are
+      unsigned int                n; ///< boxes that there are
     };
 
     struct Entry
@@ -106,23 +107,30 @@ namespace treacle
     static Four
     squared_distances(const Node &node, const std::array<float, dim> &r, const float rounding)
     {
-      Four along{}, across{}, result;
-      for (unsigned int d = 0; d < dim; ++d)
-        for (unsigned int k = 0; k < 4; ++k)
-          along[k] += (r[d] - node.centre[d][k]) * node.normal[d][k];
-      for (unsigned int d = 0; d < dim; ++d)
-        for (unsigned int k = 0; k < 4; ++k)
-          {
-            const float w = (r[d] - node.centre[d][k]) - along[k] * node.normal[d][k];
-            across[k] += w * w;
-          }
-      for (unsigned int k = 0; k < 4; ++k)
+      const auto &n = node.normal, &t = node.tangent;
+      Four        result{};
+      for (unsigned int k = 0; k < 4; ++k) // which the compiler takes at once
         {
-          const float above  = std::abs(along[k]) - node.half_thickness[k] - rounding;
-          const float beside = std::sqrt(across[k]) - node.radius[k] - rounding;
-          // twice what is positive of each, without a branch: the compiler takes four at once
-          const float a = above + std::abs(above), b = beside + std::abs(beside);
-          result[k]     = 0.25f * (a * a + b * b);
+          std::array<float, dim> w, along{};
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              w[d] = r[d] - node.centre[d][k];
+              along[0] += w[d] * n[d][k];
+              along[1] += w[d] * t[d][k];
+            }
+          if constexpr (dim == 3)
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const unsigned int e = (d + 1) % dim, f = (d + 2) % dim;
+                along[2] += w[d] * (n[e][k] * t[f][k] - n[f][k] * t[e][k]);
+              }
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const float beyond = std::abs(along[d]) - node.half_width[d][k] - rounding;
+              // twice what is positive of it, without a branch
+              const float a = beyond + std::abs(beyond);
+              result[k] += 0.25f * a * a;
+            }
         }
       return result;
     }

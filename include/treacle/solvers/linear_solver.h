@@ -16,6 +16,8 @@
 
 namespace treacle
 {
+  class GaussSeidel;
+
   /// Smooth vectors that a matrix hardly sees (owned entries, vector by vector);
   /// without any, constants of each of n_components.
   struct NearNullSpace
@@ -47,6 +49,7 @@ namespace treacle
     enum class Preconditioner
     {
       amg,
+      gauss_seidel,
       incomplete_cholesky,
       jacobi,
       none
@@ -82,6 +85,8 @@ namespace treacle
                  const Operator    &matrix,
                  const Operator    &preconditioner);
 
+    ~LinearSolver();
+
     /// Improve x until |b - A x| <= tolerance max(|b|, @p scale). Returns the number of
     /// iterations. Throws a UserError where it does not get there.
     unsigned int
@@ -98,11 +103,28 @@ namespace treacle
     precondition(Vector &z, const Vector &r) const;
 
   private:
+    /// The same between sweeps of Gauss-Seidel: unless |b - A x| is small enough at once, it and |b| are taken behind the first of
+    /// them. The latter counts times a @p factor.
+    unsigned int
+    solve_between_sweeps(Vector &x, const Vector &b, const double factor) const;
+
+    /// Until |b - A x| <= tolerance @p scale. An error tells of the residual in parts of @p norm.
+    unsigned int
+    iterate(const Operator &product,
+            const Operator &preconditioned,
+            Vector         &x,
+            const Vector   &b,
+            const double    norm,
+            const double    scale) const;
+
     const Parameters          prm;
     const std::string         name;
     Operator                  matrix;
     std::function<Operator()> make;
     mutable Operator          preconditioner; ///< empty before it is made
+    /// Null with another preconditioner than Gauss-Seidel.
+    const TrilinosWrappers::SparseMatrix      *sweeps_of = nullptr;
+    mutable std::unique_ptr<const GaussSeidel> sweeps; ///< null before the first solve
   };
 } // namespace treacle
 

@@ -19,7 +19,7 @@ namespace treacle
   public:
     struct Parameters
     {
-      LinearSolver::Parameters solver{LinearSolver::Preconditioner::jacobi, 1e-8, 2000};
+      LinearSolver::Parameters solver{LinearSolver::Preconditioner::gauss_seidel, 1e-9, 2000};
 
       void
       add_parameters(ParameterHandler &prm)
