@@ -48,14 +48,14 @@ namespace treacle
                                 const std::vector<double>            &diagonal,
                                 const TrilinosWrappers::SparseMatrix *alike) const
   {
-    MatrixRows all;
+    MatrixRows all(alike);
     MatrixRow  row;
     for (unsigned int i = 0; i < cells().size(); ++i)
       {
         set_row(cells()[i], mobility, diagonal[i], row);
         all.append(row);
       }
-    return all.take(domain.mesh.communicator(), rows(), numbering.ghost_columns, alike);
+    return all.take(domain.mesh.communicator(), rows(), numbering.ghost_columns);
   }
 
   template <int dim>

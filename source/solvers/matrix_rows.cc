@@ -3,49 +3,53 @@
 
 #include <treacle/solvers/matrix_rows.h>
 
+#include <Epetra_CrsGraph.h>
 #include <Epetra_CrsMatrix.h>
 
 namespace treacle
 {
+  MatrixRows::MatrixRows(const TrilinosWrappers::SparseMatrix *alike)
+    : alike(alike)
+  {
+    if (alike != nullptr)
+      values.reserve(alike->trilinos_matrix().NumMyNonzeros());
+  }
+
   void
   MatrixRows::append(const MatrixRow &row)
   {
-    const std::size_t n = columns.size();
-    columns.resize(n + row.size());
-    values.resize(n + row.size());
-    for (std::size_t k = 0; k < row.size(); ++k)
-      std::tie(columns[n + k], values[n + k]) = row[k];
+    for (const auto &[column, value] : row)
+      values.push_back(value);
+    if (alike != nullptr)
+      return;
+    for (const auto &[column, value] : row)
+      columns.push_back(column);
     lengths.push_back(row.size());
   }
 
   std::unique_ptr<TrilinosWrappers::SparseMatrix>
-  MatrixRows::take(const MPI_Comm                       &comm,
-                   const IndexSet                       &rows,
-                   const std::vector<GlobalIndex>       &others,
-                   const TrilinosWrappers::SparseMatrix *alike)
-  {
-    auto result = alike == nullptr ? make(comm, rows, others) : make_alike(*alike);
-    *this       = MatrixRows();
-    return result;
-  }
-
-  std::unique_ptr<TrilinosWrappers::SparseMatrix>
-  MatrixRows::make_alike(const TrilinosWrappers::SparseMatrix &alike) const
+  MatrixRows::take(const MPI_Comm &comm, const IndexSet &rows, const std::vector<GlobalIndex> &others)
   {
     auto result = std::make_unique<TrilinosWrappers::SparseMatrix>();
-    result->reinit(alike); // shares its graph
+    if (alike != nullptr)
+      result->reinit(*alike); // shares its graph
+    else
+      {
+        Epetra_CrsMatrix zeros(Copy, graph(comm, rows, others));
+        zeros.FillComplete();
+        result->reinit(zeros, false);
+      }
     const Epetra_CrsMatrix &matrix = result->trilinos_matrix();
     AssertThrow(matrix.NumMyNonzeros() == static_cast<int>(values.size()),
                 ExcMessage("A matrix has other entries than the one it is to be like."));
     if (!values.empty())
       std::copy(values.begin(), values.end(), matrix[0]);
+    *this = MatrixRows();
     return result;
   }
 
-  std::unique_ptr<TrilinosWrappers::SparseMatrix>
-  MatrixRows::make(const MPI_Comm                 &comm,
-                   const IndexSet                 &rows,
-                   const std::vector<GlobalIndex> &others)
+  Epetra_CrsGraph
+  MatrixRows::graph(const MPI_Comm &comm, const IndexSet &rows, const std::vector<GlobalIndex> &others)
   {
     const Epetra_Map row_map = rows.make_trilinos_map(comm, false);
     const int        n_rows  = row_map.NumMyElements();
@@ -65,16 +69,12 @@ namespace treacle
       column = place[column];
 
     const Epetra_Map column_map(-1, known.size(), known.data(), 0, row_map.Comm());
-    Epetra_CrsMatrix matrix(Copy, row_map, column_map, lengths.data(), true);
+    Epetra_CrsGraph  result(Copy, row_map, column_map, lengths.data(), true);
     int              error = 0;
     for (int row = 0, begin = 0; row < n_rows; begin += lengths[row++])
-      error = std::min(
-        error,
-        matrix.InsertMyValues(row, lengths[row], values.data() + begin, columns.data() + begin));
-    error = std::min(error, matrix.FillComplete(row_map, row_map));
+      error = std::min(error, result.InsertMyIndices(row, lengths[row], columns.data() + begin));
+    error = std::min({error, result.FillComplete(row_map, row_map), result.OptimizeStorage()});
     AssertThrow(error >= 0, ExcMessage("A matrix could not be completed."));
-    auto result = std::make_unique<TrilinosWrappers::SparseMatrix>();
-    result->reinit(matrix);
     return result;
   }
 } // namespace treacle

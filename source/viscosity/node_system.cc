@@ -200,16 +200,16 @@ namespace treacle
     const MPI_Comm &comm = domain.mesh.communicator();
     Assembled       result;
     result.shift.reinit(rows, comm);
-    MatrixRows matrix;
-    const bool decoupled = mass != Mass::faces && stiffness.strain.empty();
+    const bool has_faces = mass == Mass::faces;
+    MatrixRows matrix(has_faces ? with_faces.get() : nullptr);
+    const bool decoupled = !has_faces && stiffness.strain.empty();
     Row        row(domain.mesh.node_position.size());
     for (unsigned int i = 0; i < owned_nodes.size(); ++i)
       {
         assemble_row(mass, stiffness, face_mass, owned_nodes[i], row);
         insert(row, i, decoupled, result.shift, matrix);
       }
-    const bool has_faces = mass == Mass::faces;
-    result.matrix = matrix.take(comm, rows, numbering.ghost_columns, has_faces ? with_faces.get() : nullptr);
+    result.matrix = matrix.take(comm, rows, numbering.ghost_columns);
     if (has_faces && !with_faces)
       with_faces = result.matrix;
     return result;

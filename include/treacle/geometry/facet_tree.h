@@ -34,7 +34,7 @@ namespace treacle
     {
       if (nodes.empty())
         return;
-      constexpr float        rounding = 1e-6; // of single precision, and more
+      constexpr float        rounding = 2e-6; // of single precision, and more
       std::array<float, dim> r;
       for (unsigned int d = 0; d < dim; ++d)
         r[d] = (x[d] - origin[d]) / extent;

@@ -8,6 +8,8 @@
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
+class Epetra_CrsGraph;
+
 namespace treacle
 {
   /// Columns and values.
@@ -19,28 +21,26 @@ namespace treacle
   class MatrixRows
   {
   public:
+    /// A matrix @p alike, or none, has the same entries, with other values; its graph is shared.
+    explicit MatrixRows(const TrilinosWrappers::SparseMatrix *alike = nullptr);
+
     /// The next row of this rank, each column once, in ascending order.
     void
     append(const MatrixRow &row);
 
     /// @p others in ascending order; those without an entry are left out, for ML takes it
-    /// that two ranks need one another or do not. A matrix @p alike has the same entries, with
-    /// other values; its graph is shared. Collective. Nothing is left.
+    /// that two ranks need one another or do not. Collective. Nothing is left.
     std::unique_ptr<TrilinosWrappers::SparseMatrix>
-    take(const MPI_Comm                       &comm,
-         const IndexSet                       &rows,
-         const std::vector<GlobalIndex>       &others,
-         const TrilinosWrappers::SparseMatrix *alike = nullptr);
+    take(const MPI_Comm &comm, const IndexSet &rows, const std::vector<GlobalIndex> &others);
 
   private:
-    std::unique_ptr<TrilinosWrappers::SparseMatrix>
-    make(const MPI_Comm &comm, const IndexSet &rows, const std::vector<GlobalIndex> &others);
+    /// Changes columns.
+    Epetra_CrsGraph
+    graph(const MPI_Comm &comm, const IndexSet &rows, const std::vector<GlobalIndex> &others);
 
-    std::unique_ptr<TrilinosWrappers::SparseMatrix>
-    make_alike(const TrilinosWrappers::SparseMatrix &alike) const;
-
-    std::vector<int>    lengths, columns;
-    std::vector<double> values;
+    const TrilinosWrappers::SparseMatrix *alike;
+    std::vector<int>                      lengths, columns; ///< none where a matrix is alike
+    std::vector<double>                   values;
   };
 } // namespace treacle
 

@@ -132,6 +132,7 @@ BELOW = numpy.array([0.1, 0.2, 0.3, 0.4])  # the nozzle
 THREAD = {f"radius, {z} below": (thread_radius(0.5, 0.92 - z), 0.04 / sqrt(speed))
           for z, speed in zip(BELOW, thread_speed(BELOW, 1, 0.9, 0.05))}
 SWELL = {"width": (height(1.2, 1), 1.19 * 0.125)}
+TWIST = {"torque": (last("Solid 1 torque x (N m)"), pi * 1e4 * 0.01 * 0.125 ** 4 / (2 * 0.394))}
 CARRIED = {"volume": 0.005, "shape": 0.03}
 
 
@@ -180,6 +181,7 @@ FREE_SURFACE_CASES = {
     "C15": case("sloshing", 4, 0.04, sloshing(1.355728), {"Mesh/Air level": 3}),
     "C15 3D": case("sloshing_3d", 4, 0.04, sloshing(1.560158), GRADED, n_levels=2),
     "C16": case("die_swell", 3, 0.02, SWELL),
+    "C17": case("torsion", 4, 0.01, TWIST),
     "C10 notched disc": carried("notched", 2, 5, 3),
     "C10 disc in a vortex": carried("vortex", 2, 5, 3),
     "C10 sphere in a vortex": carried("vortex", 3, 4, 2),
