@@ -6,6 +6,8 @@
 #include <Epetra_CrsGraph.h>
 #include <Epetra_CrsMatrix.h>
 
+#include <algorithm>
+
 namespace treacle
 {
   MatrixRows::MatrixRows(const TrilinosWrappers::SparseMatrix *alike)
@@ -18,6 +20,7 @@ namespace treacle
   void
   MatrixRows::append(const MatrixRow &row)
   {
+    Assert(std::is_sorted(row.begin(), row.end()), ExcMessage("Columns of a row are not in ascending order."));
     for (const auto &[column, value] : row)
       values.push_back(value);
     if (alike != nullptr)

@@ -87,8 +87,8 @@ namespace treacle
 
     ~LinearSolver();
 
-    /// Improve x until |b - A x| <= tolerance max(|b|, @p scale). Returns the number of
-    /// iterations. Throws a UserError where it does not get there.
+    /// Improve x until |b - A x| <= tolerance max(|b|, @p scale), with Gauss-Seidel the norms of what the first
+    /// sweep makes of both. Returns the number of iterations. Throws a UserError where it does not get there.
     unsigned int
     solve(Vector &x, const Vector &b, const double scale = 0) const;
 
@@ -103,8 +103,7 @@ namespace treacle
     precondition(Vector &z, const Vector &r) const;
 
   private:
-    /// The same between sweeps of Gauss-Seidel: unless |b - A x| is small enough at once, it and |b| are taken behind the first of
-    /// them. The latter counts times a @p factor.
+    /// The same between sweeps of Gauss-Seidel, unless the first guess will do as it is: |b| counts times a @p factor.
     unsigned int
     solve_between_sweeps(Vector &x, const Vector &b, const double factor) const;
 
