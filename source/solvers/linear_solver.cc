@@ -150,12 +150,6 @@ namespace treacle
                   z *= factor;
               };
             }
-          case Preconditioner::gauss_seidel:
-            return [sweeps = std::make_shared<const GaussSeidel>(matrix)](Vector &z, const Vector &r) {
-              Vector between(r);
-              sweeps->forward(between, r);
-              sweeps->backward(z, between);
-            };
           case Preconditioner::incomplete_cholesky:
             return make(std::make_shared<TrilinosWrappers::PreconditionIC>());
           case Preconditioner::jacobi:
@@ -196,6 +190,13 @@ namespace treacle
   LinearSolver::precondition(Vector &z, const Vector &r) const
   {
     ++Work::here().preconditionings;
+    if (sweeps_of != nullptr)
+      {
+        Vector between(r);
+        sweeps().forward(between, r);
+        sweeps().backward(z, between);
+        return;
+      }
     if (!preconditioner)
       {
         ++Work::here().preconditioners_made;
@@ -225,35 +226,42 @@ namespace treacle
         return 0;
       }
     require_finite(norm, name);
+    const double size = std::max(norm, scale);
     if (sweeps_of != nullptr)
-      return solve_between_sweeps(x, b, std::max(norm, scale) / norm);
-    return iterate(matrix, [this](Vector &z, const Vector &r) { precondition(z, r); }, x, b, norm, std::max(norm, scale));
+      return solve_between_sweeps(x, b, norm, size);
+    return iterate(matrix, [this](Vector &z, const Vector &r) { precondition(z, r); }, x, b, norm, size);
+  }
+
+  const GaussSeidel &
+  LinearSolver::sweeps() const
+  {
+    if (!made_sweeps)
+      {
+        ++Work::here().preconditioners_made;
+        made_sweeps = std::make_unique<const GaussSeidel>(*sweeps_of);
+      }
+    return *made_sweeps;
   }
 
   unsigned int
-  LinearSolver::solve_between_sweeps(Vector &x, const Vector &b, const double factor) const
+  LinearSolver::solve_between_sweeps(Vector &x, const Vector &b, const double norm, const double scale) const
   {
     Vector r(b), y(b), correction(b);
     matrix(r, x);
     r.sadd(-1, 1, b);
-    if (r.l2_norm() <= prm.relative_tolerance * factor * b.l2_norm())
+    if (r.l2_norm() <= prm.relative_tolerance * scale)
       return 0;
-    if (!sweeps)
-      {
-        ++Work::here().preconditioners_made;
-        sweeps = std::make_unique<const GaussSeidel>(*sweeps_of);
-      }
-    sweeps->forward(y, b);
-    const double norm = y.l2_norm();
-    sweeps->forward(y, r);
+    sweeps().forward(y, b);
+    const double swept = y.l2_norm();
+    sweeps().forward(y, r);
     correction                 = 0;
     const auto         product = [this](Vector &z, const Vector &p) {
       ++Work::here().products;
-      sweeps->vmult(z, p);
+      sweeps().vmult(z, p);
     };
     const unsigned int n =
-      iterate(product, [](Vector &z, const Vector &p) { z = p; }, correction, y, norm, factor * norm);
-    sweeps->backward(y, correction);
+      iterate(product, [](Vector &z, const Vector &p) { z = p; }, correction, y, swept, scale / norm * swept);
+    sweeps().backward(y, correction);
     x += y;
     return n;
   }

@@ -95,7 +95,6 @@ namespace treacle
     return result;
   }
 
-
   template <int dim>
   CarriedFields<dim>
   Advection<dim>::carried(std::vector<NodeField<dim>> &&fields,
@@ -170,11 +169,6 @@ namespace treacle
     state.material->points = to_owners(mesh, move_material());
     state.material->update_ghost_values();
   }
-
-
-
-
-
 
   template class Advection<2>;
   template class Advection<3>;

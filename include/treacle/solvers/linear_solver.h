@@ -103,9 +103,13 @@ namespace treacle
     precondition(Vector &z, const Vector &r) const;
 
   private:
-    /// The same between sweeps of Gauss-Seidel, unless the first guess will do as it is: |b| counts times a @p factor.
+    /// Those of the matrix, made when they are first needed.
+    const GaussSeidel &
+    sweeps() const;
+
+    /// As iterate(), between sweeps of Gauss-Seidel, unless the first guess will do as it is.
     unsigned int
-    solve_between_sweeps(Vector &x, const Vector &b, const double factor) const;
+    solve_between_sweeps(Vector &x, const Vector &b, const double norm, const double scale) const;
 
     /// Until |b - A x| <= tolerance @p scale. An error tells of the residual in parts of @p norm.
     unsigned int
@@ -123,7 +127,7 @@ namespace treacle
     mutable Operator          preconditioner; ///< empty before it is made
     /// Null with another preconditioner than Gauss-Seidel.
     const TrilinosWrappers::SparseMatrix      *sweeps_of = nullptr;
-    mutable std::unique_ptr<const GaussSeidel> sweeps; ///< null before the first solve
+    mutable std::unique_ptr<const GaussSeidel> made_sweeps; ///< null before
   };
 } // namespace treacle
 
