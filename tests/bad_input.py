@@ -40,6 +40,12 @@ CASES = [
      r"Emitter 1 lies inside a solid"),
     ("emitter outside the box", {"Emitter 1/Shape": "sphere", "Emitter 1/Centre": "0.5, 7"},
      r"Emitter 1 lies outside the box"),
+    ("vent that hardly reaches into the box", {
+        "Emitter 1/Shape": "box", "Emitter 1/Lower corner": "0.3, -1", "Emitter 1/Upper corner": "0.7, 0.01"},
+     r"Emitter 1 is too thin.*0\.0625 m.*into the box.*Mesh/Surface level"),
+    ("emitter thinner than a leaf", {
+        "Emitter 1/Shape": "sphere", "Emitter 1/Centre": "0.5, 0.8", "Emitter 1/Radius": "0.02"},
+     r"Emitter 1 is too thin"),
     ("emitter that stops before it starts", {"Emitter 1/Start time": "1", "Emitter 1/Stop time": "0.5"},
      r"Emitter 1/Stop time"),
     ("solid that leaves the box", {"Solid 1/Shape": "sphere", "Solid 1/Radius": "0.05",

@@ -9,6 +9,17 @@
 
 namespace treacle
 {
+  namespace
+  {
+    /// The part of a face within a body; a face that lies along the body's side bounds it.
+    template <int dim>
+    double
+    fraction_within(const VertexValues<dim> &distance)
+    {
+      return *std::max_element(distance.begin(), distance.end()) <= 0 ? 1. : negative_fraction<dim>(distance);
+    }
+  } // namespace
+
   template <int dim>
   typename FaceOpening<dim>::Vertices
   FaceOpening<dim>::vertices(const LocalIndex f) const
@@ -34,7 +45,7 @@ namespace treacle
     for (unsigned int i = 0; i < dim; ++i)
       in_solids[i] = std::max(v.solid[i], 0.5 * (v.solid[i] - v.emitter[i]));
     constexpr double rounding = 1e-12;
-    const double     poured   = held - negative_fraction<dim - 1>(in_solids);
+    const double     poured   = held - fraction_within<dim - 1>(in_solids);
     return poured > rounding ? poured : 0;
   }
 
@@ -58,7 +69,7 @@ namespace treacle
     // a cell's faces carry balances but for the area between them
     const Point<dim>      centre      = negative_centroid<dim>(v.x, held);
     const Tensor<1, dim> &normal      = mesh.face_normal[f];
-    const double          held_part   = negative_fraction<dim - 1>(held), poured = poured_fraction(v, held_part);
+    const double          held_part   = fraction_within<dim - 1>(held), poured = poured_fraction(v, held_part);
     const double          by_emitters = poured > 0 ? scene.emitter_velocity(centre, time) * normal : 0.;
     if (is_wall) // at rest
       return {0, poured * by_emitters};

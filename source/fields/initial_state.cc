@@ -4,6 +4,7 @@
 #include <treacle/base/exchange.h>
 #include <treacle/fields/initial_state.h>
 #include <treacle/geometry/beyond_wall.h>
+#include <treacle/geometry/nearest_point.h>
 
 namespace treacle
 {
@@ -25,6 +26,55 @@ namespace treacle
       require(Utilities::MPI::min(finite ? 1 : 0, mesh.communicator()) == 1,
               name + ": the Expression is not finite somewhere in the box: mend it.");
       return values;
+    }
+
+    /// Does a body hold a point of the box, near @p x, and those at a distance @p r (m) from it along all axes? By signs alone, as formulas
+    /// may be no distances.
+    template <int dim>
+    bool
+    has_room(Point<dim> x, const Distance<dim> &distance, const BoundingBox<dim> &box, const double r)
+    {
+      const auto beside = [](const Point<dim> &y, const unsigned int k, const double way) {
+        return Point<dim>(y + (k % 2 == 0 ? way : -way) * Point<dim>::unit_vector(k / 2));
+      };
+      const auto outermost = [&](const Point<dim> &y) {
+        double value = distance(y);
+        for (unsigned int k = 0; k < 2 * dim; ++k)
+          value = std::max(value, distance(beside(y, k, r)));
+        return value;
+      };
+      double value = outermost(x);
+      for (double step = r; step > r / 64 && value > 0;)
+        {
+          const double before = value;
+          for (unsigned int k = 0; k < 2 * dim; ++k)
+            {
+              const Point<dim> next = nearest_point(box, beside(x, k, step));
+              if (const double deeper = outermost(next); deeper < value)
+                std::tie(x, value) = std::make_pair(next, deeper);
+            }
+          if (value == before)
+            step /= 2;
+        }
+      return value <= 0;
+    }
+
+    /// What a thinner emitter pours is lost, or counted many times: it is less than phi is off.
+    template <int dim>
+    void
+    check_thickness(const Mesh<dim> &mesh, const Scene<dim> &scene, const Emitter<dim> &emitter)
+    {
+      constexpr double       thin = 0.4; // leaves from the middle to the sides
+      const BoundingBox<dim> box({scene.lower_corner(), scene.upper_corner()});
+      const Distance<dim>    distance = [&](const Point<dim> &x) { return emitter.signed_distance(x); };
+      bool                   has      = false;
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes() && !has; ++node)
+        has = distance(mesh.node_position[node]) < 0 &&
+              has_room<dim>(mesh.node_position[node], distance, box, thin * mesh.finest_size());
+      require(Utilities::MPI::max(has ? 1 : 0, mesh.communicator()) == 1,
+              emitter.where + " is too thin, what it pours would be lost: let it be a leaf (" +
+                digits(mesh.finest_size()) + " m) thick, or reach half a leaf into the box, or " +
+                (mesh.is_lattice() ? "raise Mesh/Surface level." : "change Mesh/File."));
     }
 
     /// Is some of a body in the box, and some of that outside solids?
@@ -83,6 +133,8 @@ namespace treacle
         emitter.where,
         [&](const Point<dim> &x) { return emitter.signed_distance(x); },
         emitter.start_time);
+    for (const Emitter<dim> &emitter : scene.emitters())
+      check_thickness(mesh, scene, emitter);
   }
 
   template <int dim>

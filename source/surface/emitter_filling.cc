@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/geometry/beyond_wall.h>
+#include <treacle/geometry/nearest_point.h>
 #include <treacle/surface/emitter_filling.h>
 
 #include <boost/math/tools/minima.hpp>
@@ -28,15 +29,6 @@ namespace treacle
       for (unsigned int d = 0; d < dim; ++d)
         depth = std::max({depth, scene.lower_corner()[d] - x[d], x[d] - scene.upper_corner()[d]});
       return snapped(depth, scene.rounding());
-    }
-
-    template <int dim>
-    Point<dim>
-    in_box(Point<dim> x, const Scene<dim> &scene)
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        x[d] = std::min(std::max(x[d], scene.lower_corner()[d]), scene.upper_corner()[d]);
-      return x;
     }
   } // namespace
 
@@ -128,7 +120,8 @@ namespace treacle
     constexpr double bulge    = 0.1; // leaves
     const double     before   = std::max(std::min(here > 0 ? old : old + bulge * h, flowed), depth);
     const double     distance = before < 0 || here < -near * h ? here : swept(x, 0.5 * (way + dt * v), here);
-    const bool       is_skin  = depth > 0 && old > -h && filled(in_box(from, scene)) > 0;
+    const auto       in_box   = [&] { return nearest_point(BoundingBox<dim>({scene.lower_corner(), scene.upper_corner()}), from); };
+    const bool       is_skin  = depth > 0 && old > -h && filled(in_box()) > 0;
     // where walls bound both, neither has more
     const double inside = here > 0 && before < 0 ? before : std::max(distance, depth_beyond(x, scene, time));
     return {std::min(is_skin ? std::max(old, depth) : old, distance), inside, std::max(inside, before)};

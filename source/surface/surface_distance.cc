@@ -8,7 +8,9 @@
 #include <treacle/mesh/near_ranks.h>
 #include <treacle/surface/surface_distance.h>
 
+#include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace treacle
 {
@@ -160,28 +162,54 @@ namespace treacle
       const double height = dim == 2 ? longest : a.norm() / longest; // 0 / 0 is not larger either
       return turned * height > rounding ? a / a.norm() : Tensor<1, dim>();
     }
+
+    /// Along the end of a facet on a side of the box beyond which it goes on to @p foot from its @p nearest point: of length 1, or 0 in
+    /// 2D and beyond an edge of the box. Nothing for a facet that does not end there: with a corner alone on the side it may be all but along that.
+    template <int dim>
+    std::optional<Tensor<1, dim>>
+    along_end(const std::array<Point<dim>, dim> &facet,
+              const Point<dim>                  &nearest,
+              const Point<dim>                  &foot,
+              const BoundingBox<dim>            &box,
+              const double                       tolerance)
+    {
+      unsigned int                  n_sides = 0;
+      std::optional<Tensor<1, dim>> along;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (const double outwards : {-1., 1.})
+          {
+            const double side   = outwards < 0 ? box.lower_bound(d) : box.upper_bound(d);
+            const auto   beyond = [&](const Point<dim> &x) { return outwards * (x[d] - side); };
+            const auto   is_on  = [&](const Point<dim> &x) { return std::abs(beyond(x)) < tolerance; };
+            if (!is_on(nearest) || beyond(foot) <= tolerance)
+              continue;
+            ++n_sides;
+            for (unsigned int i = 0; i < dim; ++i)
+              if (const Point<dim> &a = facet[i], &b = facet[(i + 1) % dim]; is_on(a) && (dim == 2 || is_on(b)))
+                along = dim == 2 ? Tensor<1, dim>() : (b - a) / std::max(b.distance(a), tolerance);
+          }
+      return along && n_sides > 1 ? Tensor<1, dim>() : along;
+    }
   } // namespace
 
   template <int dim>
   double
   SurfaceDistance<dim>::distance_beyond_box(const Point<dim> &x, const Candidate &candidate) const
   {
-    const Point<dim> &nearest = candidate.point;
-    bool              on_box  = false;
-    for (unsigned int d = 0; d < dim; ++d)
-      on_box = on_box || std::abs(nearest[d] - box.lower_bound(d)) < tolerance ||
-               std::abs(nearest[d] - box.upper_bound(d)) < tolerance;
-    if (!on_box)
+    BoundingBox<dim> within = box;
+    within.extend(-tolerance);
+    if (within.point_inside(candidate.point, 0))
       return candidate.distance;
-    const Tensor<1, dim> normal = normal_of<dim>(facets[candidate.facet], tolerance);
-    const double         above  = (x - nearest) * normal;
-    const Point<dim>     foot   = x - above * normal;
-    BoundingBox<dim>     around = box;
-    around.extend(tolerance);
-    if (normal == Tensor<1, dim>() || around.point_inside(foot, 0))
+    const Facet         &facet  = facets[candidate.facet];
+    const Tensor<1, dim> normal = normal_of<dim>(facet, tolerance);
+    const double         above  = (x - candidate.point) * normal;
+    const auto           along  = along_end<dim>(facet, candidate.point, x - above * normal, box, tolerance);
+    if (normal == Tensor<1, dim>() || !along)
       return candidate.distance;
     constexpr double flattest = 0.5; // 30 degrees to the side
-    return std::max(std::abs(above), in_solid[candidate.facet] ? flattest * candidate.distance : 0.);
+    // beyond its own end alone, not beside that
+    return std::max(std::hypot(above, *along * (x - candidate.point)),
+                    in_solid[candidate.facet] ? flattest * candidate.distance : 0.);
   }
 
   template class SurfaceDistance<2>;

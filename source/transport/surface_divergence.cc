@@ -116,7 +116,11 @@ namespace treacle
       if (const auto &of_cell = mesh.cell_nodes[c];
           domain.liquid_volume[c] > 0 && std::any_of(of_cell.begin(), of_cell.end(), is_set(moves)) &&
           std::none_of(of_cell.begin(), of_cell.end(), is_set(is_apart)))
-        append(c, place);
+        {
+          append(c, place);
+          for (const WettedWall<dim> &part : wetted_walls(domain, phi, c))
+            walls.push_back({static_cast<unsigned int>(cells.size() - 1), part});
+        }
     Vector mass(mesh.nodes); // a node's own rank knows all around it
     for (const Node &node : nodes)
       if (node.index < mesh.n_owned_nodes() && moves.local_element(node.index) > 0)
@@ -166,6 +170,16 @@ namespace treacle
             node.with_smoothing += smoothing * (dim + 1) * cell.volume * cell.gradient[i].norm_square();
           }
       }
+    for (const auto &[c, part] : walls)
+      for (unsigned int i = 0; i <= dim; ++i)
+        for (unsigned int j = 0; j <= dim; ++j)
+          for (unsigned int d = 0; d < dim; ++d)
+            if (const Node &node = nodes[cells[c].nodes[j]]; is_free(node, d))
+              {
+                const double of_cell = cells[c].volume * cells[c].gradient[j][d];
+                nodes[cells[c].nodes[i]].diagonal +=
+                  (std::pow(of_cell - part.weight[i] * part.weight[j] * part.area[d], 2) - of_cell * of_cell) / node.mass;
+              }
     for (Node &node : nodes)
       node.with_smoothing += (1 + least) * node.diagonal;
   }
@@ -190,6 +204,14 @@ namespace treacle
         for (unsigned int i = 0; i <= dim; ++i)
           sum[cell.nodes[i]] += cell.volume * (divergence + g * cell.gradient[i]);
       }
+    for_each_weight(
+      [this](const Wall &wall) {
+        Tensor<1, dim> v;
+        for (unsigned int i = 0; i <= dim; ++i)
+          v += wall.part.weight[i] * velocity[cells[wall.cell].nodes[i]];
+        return v * wall.part.area;
+      },
+      [this](const unsigned int k, const double volume) { sum[k] -= volume; });
     r = 0;
     for (unsigned int k = 0; k < nodes.size(); ++k)
       if (const Node &node = nodes[k]; node.index < mesh.n_owned_nodes() && node.diagonal > 0)
@@ -209,6 +231,15 @@ namespace treacle
         for (unsigned int i = 0; i <= dim; ++i)
           force[cell.nodes[i]] += cell.volume * whole * cell.gradient[i];
       }
+    for (const Wall &wall : walls)
+      {
+        const auto &of_cell = cells[wall.cell].nodes;
+        double      there   = 0;
+        for (unsigned int i = 0; i <= dim; ++i)
+          there += wall.part.weight[i] * q.local_element(nodes[of_cell[i]].index);
+        for (unsigned int i = 0; i <= dim; ++i)
+          force[of_cell[i]] -= wall.part.weight[i] * there * wall.part.area;
+      }
     for (unsigned int k = 0; k < nodes.size(); ++k)
       if (const Node &node = nodes[k]; node.index < mesh.n_owned_nodes())
         for (unsigned int d = 0; d < dim; ++d)
@@ -224,6 +255,11 @@ namespace treacle
     Vector d(mesh.nodes), q(mesh.nodes);
     q.update_ghost_values();
     weigh(v, q, d);
+    for_each_weight([](const Wall &wall) { return wall.part.swept; },
+                    [&](const unsigned int k, const double volume) {
+                      if (const Node &node = nodes[k]; node.index < mesh.n_owned_nodes() && node.diagonal > 0)
+                        d.local_element(node.index) += volume;
+                    });
     q.zero_out_ghost_values();
     const double norm = d.l2_norm();
     if (!(norm > 0))

@@ -7,8 +7,6 @@
 #include <treacle/transport/surface_velocity.h>
 #include <treacle/transport/velocity_in_time.h>
 
-#include <functional>
-
 namespace treacle
 {
   namespace
@@ -147,29 +145,49 @@ namespace treacle
                            wall + product / square * std::max(domain.solid_distance[node], -farthest);
     }
 
-    /// In solids that liquid touches v is theirs along their normal, on the wall: it does not go through it.
+    /// How far the surface at an owned node of a wall or in a solid faces that, whose normal @p n leads out of the liquid: 1 for one along it,
+    /// which is to come to it, 0 for one that stands on it or leans back, which moves along it, and where the liquid is.
+    template <int dim>
+    double
+    part_that_faces(const State<dim> &state, const LocalIndex node, const Tensor<1, dim> &n)
+    {
+      if (state.phi.local_element(node) <= 0)
+        return 0;
+      const MeanGradient<dim> slope = mean_gradient(*state.mesh, state.phi, node);
+      return slope.mean.norm() > 0.5 * slope.length ? std::max(0., slope.mean * n / slope.mean.norm()) : 1.;
+    }
+
+    /// What liquid touches of walls and solids it does not go through: there v has the speed of these along their normal.
     template <int dim>
     void
-    stop_at_solids(const State<dim> &state, const LiquidDomain<dim> &domain, NodeVector<dim> &v)
+    stop_at_walls(const State<dim> &state, const LiquidDomain<dim> &domain, NodeVector<dim> &v)
     {
+      const auto set_speed = [&](const LocalIndex node, const Tensor<1, dim> &n, const double speed) {
+        const double other = speed - v.value(node) * n;
+        v.set(node, v.value(node) + (1 - part_that_faces(state, node, n)) * other * n);
+      };
       for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
-        if (domain.solid_distance[node] <= 0 && state.phi.local_element(node) <= 0)
+        if (domain.solid_distance[node] <= 0)
           {
-            const Tensor<1, dim> n = solid_normal(domain, node);
-            v.set(node, v.value(node) + (speed_behind_wall(domain, node, n, v) - v.value(node) * n) * n);
+            const Tensor<1, dim> n = -solid_normal(domain, node);
+            set_speed(node, n, speed_behind_wall(domain, node, n, v));
           }
+        else if (domain.mesh.node_sides[node] != 0 && !domain.is_emitter_node[node])
+          for (unsigned int wall = 0; wall < 2 * dim; ++wall)
+            if (domain.mesh.node_sides[node] >> wall & 1)
+              set_speed(node, (wall % 2 == 0 ? -1. : 1.) * Point<dim>::unit_vector(wall / 2), 0);
       v.update_ghost_values();
     }
 
-    /// Set v at nodes of walls and solids that @p is_continued (node) holds for to that of the nodes beside them.
-    template <int dim, typename IsContinued>
+    /// Set v at nodes of walls and in solids to that of the nodes beside them: with that of a wall P1 functions would never bring the surface
+    /// there.
+    template <int dim>
     void
-    continue_at_walls(const LiquidDomain<dim> &domain, const IsContinued &is_continued, NodeVector<dim> &v)
+    continue_at_walls(const LiquidDomain<dim> &domain, NodeVector<dim> &v)
     {
       Vector is_known(domain.mesh.nodes);
       for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
-        is_known.local_element(node) =
-          domain.constrained[node] == 0 || domain.is_emitter_node[node] || !is_continued(node);
+        is_known.local_element(node) = domain.constrained[node] == 0 || domain.is_emitter_node[node];
       continue_velocity(domain.data, is_known, domain.constrained, 3, v);
     }
   } // namespace
@@ -182,16 +200,11 @@ namespace treacle
                    const double             distance,
                    SurfaceDivergence<dim>  *divergence)
   {
-    NodeVector<dim> result   = combined(1, v, 1, linear_part(state, domain, v, distance));
-    const auto      is_solid = [&](const LocalIndex node) { return domain.solid_distance[node] <= 0; };
-    if (domain.scene.has_solids())
-      {
-        continue_at_walls(domain, is_solid, result);
-        stop_at_solids(state, domain, result);
-      }
+    NodeVector<dim> result = combined(1, v, 1, linear_part(state, domain, v, distance));
+    continue_at_walls(domain, result);
+    stop_at_walls(state, domain, result);
     if (divergence != nullptr)
       divergence->remove_from(result);
-    continue_at_walls(domain, std::not_fn(is_solid), result);
     return result;
   }
 

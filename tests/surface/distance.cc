@@ -2,8 +2,8 @@
 // Copyright (C) the Treacle authors
 
 // Nearest points on the surface of a box of liquid and of a ball, for nodes in planes of
-// symmetry that have several: the same on 1, 2 and 3 ranks. A marker at the very end of its
-// reach does no harm.
+// symmetry that have several: the same on 1, 2 and 3 ranks. Sides that lean on a wall go on beyond it, each before its own end.
+// A marker at the very end of its reach does no harm.
 
 #include <treacle/geometry/shapes.h>
 #include <treacle/surface/marker_correction.h>
@@ -71,6 +71,28 @@ check(const MPI_Comm &comm, const std::string &name, const unsigned int level)
                << Utilities::MPI::sum(distance, comm) << std::endl;
 }
 
+/// A corner of a body that stands on the floor, with two sides at 45 degrees to it: no point on the floor is nearer to it than the farther of
+/// their planes.
+void
+check_beyond_floor(const MPI_Comm &comm)
+{
+  const auto       pointer   = uniform_mesh<3>(comm, 4);
+  const Mesh<3>   &mesh      = *pointer;
+  const auto       to_planes = [](const Point<3> &x) { return (std::max(x[0], x[1]) + x[2] - 0.53) / std::sqrt(2.); };
+  treacle::Vector  phi       = mesh.zeros(mesh.nodes);
+  for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+    phi.local_element(node) = to_planes(mesh.node_position[node]);
+  phi.update_ghost_values();
+  const SurfaceDistance<3> surface(mesh, extract_surface(mesh, phi), 0.4);
+  double                   too_near = 0;
+  for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+    if (const Point<3> &x = mesh.node_position[node]; x[2] == 0 && to_planes(x) > 0)
+      too_near = std::max(too_near, to_planes(x) - surface.nearest(x).distance);
+  too_near = Utilities::MPI::max(too_near, comm);
+  tests::out() << "3D, on the floor beside a corner: nearer than the planes "
+               << (too_near < 1e-9 ? "nowhere" : "SOMEWHERE, by " + std::to_string(too_near)) << std::endl;
+}
+
 /// A marker so far from the middle node that it is felt, with the weight 0.
 void
 check_weightless_marker()
@@ -107,6 +129,7 @@ start(const int, char **)
         check<2>(comm, name, 5);
         check<3>(comm, name, 3);
       }
+    check_beyond_floor(comm);
   });
   if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
     check_weightless_marker();

@@ -4,7 +4,7 @@
 // What flows through the surface of a disc or ball that turns, moves, and swells beside
 // its surface alone, and through that of a layer that rises from a wall: hardly any once
 // the divergence beside the surface is taken out. A rigid motion stays as it is, what the
-// wall prescribes too, and two halves go on to close a gap thinner than a leaf. A thread thinner than a
+// wall prescribes too, and nothing leaves half a disc or ball through the wall it lies on. Two halves go on to close a gap thinner than a leaf. A thread thinner than a
 // leaf, which the lattice shows as drops in a row, becomes thinner as it is stretched.
 
 #include <treacle/fields/gradients.h>
@@ -58,7 +58,7 @@ namespace tests::transport_surface_divergence
       return v;
     }
 
-    /// Through the surface (m^dim/s).
+    /// Through the surface outside solids (m^dim/s).
     template <int dim>
     double
     flux(const Body<dim> &body, const NodeVector<dim> &v)
@@ -73,6 +73,8 @@ namespace tests::transport_surface_divergence
                          Point<dim> middle;
                          for (const Point<dim> &p : x)
                            middle += p / dim;
+                         if (body.scene.solid_distance(middle, 0) < 0)
+                           return;
                          const LocalIndex     first = mesh.cell_nodes[c][0];
                          const Tensor<1, dim> there =
                            v.value(first) + velocity_gradient(mesh, c, v) *
@@ -215,6 +217,39 @@ namespace tests::transport_surface_divergence
             << bounded(Utilities::MPI::max(moved, comm), 1e-15) << std::endl;
     }
 
+    /// Half of one, on a solid that cuts cells, which moves into that beside its surface.
+    template <int dim>
+    void
+    check_solid(const MPI_Comm &comm, const unsigned int level)
+    {
+      const std::string middle = dim == 2 ? "0.5, 0.51" : "0.5, 0.51, 0.5";
+      const Body<dim>   body(comm,
+                           graded_mesh(level) + "subsection Liquid 1\nset Radius = 0.3\nset Centre = " + middle +
+                             "\nend\nsubsection Solid 1\nset Shape = half space\nset Centre = " + middle +
+                             "\nset Normal = " + (dim == 2 ? "0, 1" : "0, 1, 0") + "\nend\n",
+                           1);
+      const Mesh<dim>  &mesh = *body.state.mesh;
+      const auto        down = at_nodes<dim>(mesh, [&](const LocalIndex node) {
+        Tensor<1, dim> v;
+        v[1] = -std::clamp(1 + body.state.phi.local_element(node) / (1.5 * mesh.finest_size()), 0., 1.);
+        return v;
+      });
+      double area = 0, through = 0;
+      for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
+        for (const WettedWall<dim> &wall : wetted_walls(body.domain, body.state.phi, c))
+          {
+            area -= wall.area[1];
+            for (unsigned int i = 0; i <= dim; ++i)
+              through += wall.weight[i] * (down.value(mesh.cell_nodes[c][i]) * wall.area);
+          }
+      area            = Utilities::MPI::sum(area, comm) / (dim == 2 ? 0.6 : 0.09 * numbers::PI);
+      through         = Utilities::MPI::sum(through, comm);
+      NodeVector<dim> v = combined(1, down, 0, down);
+      remove_divergence(body.state, body.domain, v);
+      out() << dim << "D, on a solid: its wall is wet by " << bounded(area - 1, 0.01) << " more than it is; through the wall "
+            << digits(through) << ", then through the surface " << bounded(flux(body, v) / through, 0.1) << " of it" << std::endl;
+    }
+
     void
     test(const int, char **)
     {
@@ -227,6 +262,8 @@ namespace tests::transport_surface_divergence
         check_thread<3>(comm, 4);
         check_wall<2>(comm, 5);
         check_wall<3>(comm, 4);
+        check_solid<2>(comm, 5);
+        check_solid<3>(comm, 4);
       });
     }
   } // namespace

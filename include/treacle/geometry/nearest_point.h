@@ -6,6 +6,10 @@
 
 #include <treacle/base/types.h>
 
+#include <deal.II/base/bounding_box.h>
+
+#include <algorithm>
+
 namespace treacle
 {
   /// The point of a facet (2D: a segment, 3D: a triangle) that is nearest to p.
@@ -14,6 +18,16 @@ namespace treacle
 
   Point<3>
   nearest_point(const std::array<Point<3>, 3> &facet, const Point<3> &p);
+
+  /// The point of a box that is nearest to p.
+  template <int dim>
+  Point<dim>
+  nearest_point(const BoundingBox<dim> &box, Point<dim> p)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      p[d] = std::min(std::max(p[d], box.lower_bound(d)), box.upper_bound(d));
+    return p;
+  }
 } // namespace treacle
 
 #endif

@@ -4,7 +4,7 @@
 #ifndef treacle_transport_surface_divergence_h
 #define treacle_transport_surface_divergence_h
 
-#include <treacle/fields/liquid_domain.h>
+#include <treacle/fields/wetted_walls.h>
 
 namespace treacle
 {
@@ -12,12 +12,13 @@ namespace treacle
   /// them and continued into the air does not, and where the surface is curved as sharply
   /// as a leaf, as about a stream that enters a pool, it loses a third of what flows
   /// there. This takes the divergence of v out of the liquid within two leaves of the
-  /// surface: the least change of its nodes, in the mean over the liquid, after which the
-  /// mean of div v over the liquid of their cells with each P1 weight is zero,
+  /// surface, less what flows through walls: the least change of its nodes, in the mean over the liquid, after which what flows out
+  /// of the liquid of their cells through its surface, with each P1 weight, is zero,
   ///
-  ///   v - M^-1 B^T q,   (B M^-1 B^T + 0.1 L) q = B v,
+  ///   v - M^-1 B^T q,   (B M^-1 B^T + 0.1 L) q = B v - b,
   ///
-  /// with (B v)_i the integral of lambda_i div v, M the lumped volume of the liquid, and
+  /// with (B v)_i the integral of lambda_i div v less that of lambda_i v·n over the walls which the liquid touches, b_i what
+  /// these sweep, M the lumped volume of the liquid, and
   /// L the stiffness of q, without which weights that alternate from node to node are
   /// hardly seen. As the weights sum to one, and L q to zero, what flows through the
   /// surface is right as a whole. Components that are prescribed stay. Not in gaps
@@ -40,6 +41,13 @@ namespace treacle
       std::array<unsigned int, dim + 1>   nodes;    ///< by their place in Nodes
       double                              volume;   ///< of its liquid, over the number of its nodes
       std::array<Tensor<1, dim>, dim + 1> gradient; ///< of the nodes' weights (1/m)
+    };
+
+    /// Of these cells.
+    struct Wall
+    {
+      unsigned int    cell; ///< by its place in cells
+      WettedWall<dim> part;
     };
 
     /// The nodes of these cells.
@@ -67,6 +75,19 @@ namespace treacle
       return node.mass > 0 && !(node.constrained >> d & 1);
     }
 
+    /// What the walls take from the weights of nodes, of which @p through (wall) flows; to (node, value).
+    template <typename Through, typename To>
+    void
+    for_each_weight(const Through &through, const To &to) const
+    {
+      for (const Wall &wall : walls)
+        {
+          const double volume = through(wall);
+          for (unsigned int i = 0; i <= dim; ++i)
+            to(cells[wall.cell].nodes[i], wall.part.weight[i] * volume);
+        }
+    }
+
     /// Of the matrix, about: the sum of its cells' own. What nothing beside it can move
     /// has no weight. Smoothing is much the larger part of it where a cell has little liquid.
     void
@@ -83,6 +104,7 @@ namespace treacle
     const LiquidDomain<dim> &domain;
     const Mesh<dim>         &mesh;
     std::vector<Cell>        cells;
+    std::vector<Wall>        walls;
     std::vector<Node>        nodes;
     // scratch
     NodeVector<dim>             flowing;
