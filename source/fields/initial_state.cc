@@ -28,28 +28,42 @@ namespace treacle
       return values;
     }
 
-    /// Does a body hold a point of the box, near @p x, and those at a distance @p r (m) from it along all axes? By signs alone, as formulas
-    /// may be no distances.
+    /// Those of all cubes about a cube.
+    template <int dim>
+    std::vector<Tensor<1, dim>>
+    directions()
+    {
+      std::vector<Tensor<1, dim>> result;
+      for (unsigned int k = 0; k < Utilities::pow(3, dim); ++k)
+        {
+          Tensor<1, dim> direction;
+          for (unsigned int d = 0; d < dim; ++d)
+            direction[d] = static_cast<int>(k / Utilities::pow(3, d) % 3) - 1;
+          if (direction.norm_square() > 0)
+            result.push_back(direction / direction.norm());
+        }
+      return result;
+    }
+
+    /// Does a body hold a ball of radius @p r (m) about a point of the box near @p x? By signs alone, as formulas may be no distances.
     template <int dim>
     bool
     has_room(Point<dim> x, const Distance<dim> &distance, const BoundingBox<dim> &box, const double r)
     {
-      const auto beside = [](const Point<dim> &y, const unsigned int k, const double way) {
-        return Point<dim>(y + (k % 2 == 0 ? way : -way) * Point<dim>::unit_vector(k / 2));
-      };
-      const auto outermost = [&](const Point<dim> &y) {
+      const std::vector<Tensor<1, dim>> ways      = directions<dim>();
+      const auto                        outermost = [&](const Point<dim> &y) {
         double value = distance(y);
-        for (unsigned int k = 0; k < 2 * dim; ++k)
-          value = std::max(value, distance(beside(y, k, r)));
+        for (const Tensor<1, dim> &way : ways)
+          value = std::max(value, distance(y + r * way));
         return value;
       };
       double value = outermost(x);
       for (double step = r; step > r / 64 && value > 0;)
         {
           const double before = value;
-          for (unsigned int k = 0; k < 2 * dim; ++k)
+          for (const Tensor<1, dim> &way : ways)
             {
-              const Point<dim> next = nearest_point(box, beside(x, k, step));
+              const Point<dim> next = nearest_point(box, Point<dim>(x + step * way));
               if (const double deeper = outermost(next); deeper < value)
                 std::tie(x, value) = std::make_pair(next, deeper);
             }
@@ -64,13 +78,18 @@ namespace treacle
     void
     check_thickness(const Mesh<dim> &mesh, const Scene<dim> &scene, const Emitter<dim> &emitter)
     {
-      constexpr double       thin = 0.4; // leaves from the middle to the sides
-      const BoundingBox<dim> box({scene.lower_corner(), scene.upper_corner()});
-      const Distance<dim>    distance = [&](const Point<dim> &x) { return emitter.signed_distance(x); };
-      bool                   has      = false;
+      constexpr double    thin     = 0.4; // leaves from the middle to the sides
+      const Distance<dim> distance = [&](const Point<dim> &x) { return emitter.signed_distance(x); };
+      const auto          size     = [&](const LocalIndex node) { // files have cells of any
+        double smallest = mesh.cell_size[mesh.node_cells[mesh.node_cell_start[node]]];
+        for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+          smallest = std::min(smallest, mesh.cell_size[mesh.node_cells[k]]);
+        return smallest;
+      };
+      bool has = false;
       for (LocalIndex node = 0; node < mesh.n_owned_nodes() && !has; ++node)
         has = distance(mesh.node_position[node]) < 0 &&
-              has_room<dim>(mesh.node_position[node], distance, box, thin * mesh.finest_size());
+              has_room<dim>(mesh.node_position[node], distance, scene.box(), thin * size(node));
       require(Utilities::MPI::max(has ? 1 : 0, mesh.communicator()) == 1,
               emitter.where + " is too thin, what it pours would be lost: let it be a leaf (" +
                 digits(mesh.finest_size()) + " m) thick, or reach half a leaf into the box, or " +
@@ -160,7 +179,7 @@ namespace treacle
   {
     Distance<dim> liquids = [&scene](const Point<dim> &x) { return scene.distance_to_liquids(x); };
     if (has_box)
-      liquids = beyond_sides<dim>(liquids, BoundingBox<dim>({scene.lower_corner(), scene.upper_corner()}), h);
+      liquids = beyond_sides<dim>(liquids, scene.box(), h);
     const Distance<dim> f = [liquids, &scene](const Point<dim> &x) {
       return std::min(liquids(x), scene.emitter_distance(x, 0));
     };

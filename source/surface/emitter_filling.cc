@@ -120,8 +120,7 @@ namespace treacle
     constexpr double bulge    = 0.1; // leaves
     const double     before   = std::max(std::min(here > 0 ? old : old + bulge * h, flowed), depth);
     const double     distance = before < 0 || here < -near * h ? here : swept(x, 0.5 * (way + dt * v), here);
-    const auto       in_box   = [&] { return nearest_point(BoundingBox<dim>({scene.lower_corner(), scene.upper_corner()}), from); };
-    const bool       is_skin  = depth > 0 && old > -h && filled(in_box()) > 0;
+    const bool       is_skin  = depth > 0 && old > -h && filled(nearest_point(scene.box(), from)) > 0;
     // where walls bound both, neither has more
     const double inside = here > 0 && before < 0 ? before : std::max(distance, depth_beyond(x, scene, time));
     return {std::min(is_skin ? std::max(old, depth) : old, distance), inside, std::max(inside, before)};

@@ -55,7 +55,7 @@ namespace treacle
       const double reach = dt * maximum_speed(old, domain) + 2 * old.mesh->finest_size();
       std::optional<SurfaceDivergence<dim>> divergence;
       if (keeps_volume)
-        divergence.emplace(old.phi, surface.level_set.gradients(), domain);
+        divergence.emplace(old, surface.level_set.gradients(), domain);
       return velocity_in_step<dim>(old, domain, difference, reach, [&](const NodeVector<dim> &v) {
         return surface_velocity(old, domain, v, reach, divergence ? &*divergence : nullptr);
       });

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/base/exchange.h>
 #include <treacle/fields/gradients.h>
 #include <treacle/mesh/surface_size.h>
 #include <treacle/solvers/linear_solver.h>
 #include <treacle/transport/surface_divergence.h>
 
 #include <deal.II/lac/solver_cg.h>
+
+#include <numeric>
 
 namespace treacle
 {
@@ -17,6 +20,8 @@ namespace treacle
     /// Weight of the stiffness that q is smoothed with, and of the matrix's diagonal, for where no surface bounds the liquid, as between
     /// liquids in a full box, a constant q moves nothing.
     constexpr double smoothing = 0.1, least = 1e-4;
+    /// In leaves: how much thicker the liquid on a wall counts, or thin films would move by whatever flows through that.
+    constexpr double film = 0.25;
     /// Of the divergence, that may stay; the solve takes 5 to 10 iterations.
     constexpr double       tolerance       = 1e-2;
     constexpr unsigned int most_iterations = 30;
@@ -81,21 +86,23 @@ namespace treacle
   } // namespace
 
   template <int dim>
-  SurfaceDivergence<dim>::SurfaceDivergence(const Vector            &phi,
+  SurfaceDivergence<dim>::SurfaceDivergence(const State<dim>        &state,
                                             const NodeVector<dim>   &gradient,
                                             const LiquidDomain<dim> &domain)
     : domain(domain)
     , mesh(domain.mesh)
     , flowing(mesh.nodes)
   {
-    find_cells(phi, gradient);
+    find_cells(state, gradient);
     find_diagonal();
   }
 
   template <int dim>
   void
-  SurfaceDivergence<dim>::find_cells(const Vector &phi, const NodeVector<dim> &gradient)
+  SurfaceDivergence<dim>::find_cells(const State<dim> &state, const NodeVector<dim> &gradient)
   {
+    const Vector &phi = state.phi;
+    std::string   error;
     Vector moves(mesh.nodes), is_apart(mesh.nodes); // of a gap, or in an emitter
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
@@ -118,9 +125,9 @@ namespace treacle
           std::none_of(of_cell.begin(), of_cell.end(), is_set(is_apart)))
         {
           append(c, place);
-          for (const WettedWall<dim> &part : wetted_walls(domain, phi, c))
-            walls.push_back({static_cast<unsigned int>(cells.size() - 1), part});
+          keep_error(error, [&] { append_walls(state, c); });
         }
+    throw_first(mesh.communicator(), error);
     Vector mass(mesh.nodes); // a node's own rank knows all around it
     for (const Node &node : nodes)
       if (node.index < mesh.n_owned_nodes() && moves.local_element(node.index) > 0)
@@ -154,6 +161,18 @@ namespace treacle
 
   template <int dim>
   void
+  SurfaceDivergence<dim>::append_walls(const State<dim> &state, const LocalIndex c)
+  {
+    for (const WettedWall<dim> &part : wetted_walls(domain, state, c))
+      {
+        walls.push_back({static_cast<unsigned int>(cells.size() - 1), part});
+        for (unsigned int i = 0; i <= dim; ++i)
+          nodes[cells.back().nodes[i]].mass += film * mesh.cell_size[c] * part.weight[i] * part.area.norm();
+      }
+  }
+
+  template <int dim>
+  void
   SurfaceDivergence<dim>::find_diagonal()
   {
     for (const Cell &cell : cells)
@@ -170,16 +189,22 @@ namespace treacle
             node.with_smoothing += smoothing * (dim + 1) * cell.volume * cell.gradient[i].norm_square();
           }
       }
-    for (const auto &[c, part] : walls)
-      for (unsigned int i = 0; i <= dim; ++i)
-        for (unsigned int j = 0; j <= dim; ++j)
-          for (unsigned int d = 0; d < dim; ++d)
-            if (const Node &node = nodes[cells[c].nodes[j]]; is_free(node, d))
-              {
-                const double of_cell = cells[c].volume * cells[c].gradient[j][d];
-                nodes[cells[c].nodes[i]].diagonal +=
-                  (std::pow(of_cell - part.weight[i] * part.weight[j] * part.area[d], 2) - of_cell * of_cell) / node.mass;
-              }
+    for (auto wall = walls.begin(), end = wall; wall != walls.end(); wall = end)
+      {
+        const Cell &cell = cells[wall->cell];
+        end              = std::find_if(wall, walls.end(), [&](const Wall &other) { return other.cell != wall->cell; });
+        for (unsigned int i = 0; i <= dim; ++i)
+          for (unsigned int j = 0; j <= dim; ++j)
+            for (unsigned int d = 0; d < dim; ++d)
+              if (const Node &node = nodes[cell.nodes[j]]; is_free(node, d))
+                {
+                  const double without = cell.volume * cell.gradient[j][d];
+                  const double with    = std::accumulate(wall, end, without, [&](const double sum, const Wall &w) {
+                    return sum - w.part.weight[i] * w.part.weight[j] * w.part.area[d];
+                  });
+                  nodes[cell.nodes[i]].diagonal += (with * with - without * without) / node.mass;
+                }
+      }
     for (Node &node : nodes)
       node.with_smoothing += (1 + least) * node.diagonal;
   }
@@ -204,7 +229,7 @@ namespace treacle
         for (unsigned int i = 0; i <= dim; ++i)
           sum[cell.nodes[i]] += cell.volume * (divergence + g * cell.gradient[i]);
       }
-    for_each_weight(
+    distribute(
       [this](const Wall &wall) {
         Tensor<1, dim> v;
         for (unsigned int i = 0; i <= dim; ++i)
@@ -255,7 +280,7 @@ namespace treacle
     Vector d(mesh.nodes), q(mesh.nodes);
     q.update_ghost_values();
     weigh(v, q, d);
-    for_each_weight([](const Wall &wall) { return wall.part.swept; },
+    distribute([](const Wall &wall) { return wall.part.swept; },
                     [&](const unsigned int k, const double volume) {
                       if (const Node &node = nodes[k]; node.index < mesh.n_owned_nodes() && node.diagonal > 0)
                         d.local_element(node.index) += volume;

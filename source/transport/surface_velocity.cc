@@ -146,36 +146,64 @@ namespace treacle
     }
 
     /// How far the surface at an owned node of a wall or in a solid faces that, whose normal @p n leads out of the liquid: 1 for one along it,
-    /// which is to come to it, 0 for one that stands on it or leans back, which moves along it, and where the liquid is.
+    /// which is to come to it, 0 for one that stands on it or leans back, which moves along it, and where the liquid is; no jumps, as what
+    /// flips by rounding would make the result depend on the partition.
     template <int dim>
     double
     part_that_faces(const State<dim> &state, const LocalIndex node, const Tensor<1, dim> &n)
     {
-      if (state.phi.local_element(node) <= 0)
+      constexpr double beside = 0.1; // leaves from the liquid
+      const double     away = state.phi.local_element(node) / (beside * state.mesh->finest_size());
+      if (away <= 0)
         return 0;
       const MeanGradient<dim> slope = mean_gradient(*state.mesh, state.phi, node);
-      return slope.mean.norm() > 0.5 * slope.length ? std::max(0., slope.mean * n / slope.mean.norm()) : 1.;
+      const double            faces = slope.length > 0 ? 1 - (slope.mean.norm() - slope.mean * n) / slope.length : 1.;
+      return std::min(away, 1.) * std::clamp(faces, 0., 1.);
     }
 
-    /// What liquid touches of walls and solids it does not go through: there v has the speed of these along their normal.
+    /// Of the walls of each kind that meet at an owned node, in the mean, out of the mesh; zero for both sides of a plate.
+    template <int dim>
+    std::array<Tensor<1, dim>, Walls<dim>::n>
+    wall_normals(const Mesh<dim> &mesh, const LocalIndex node)
+    {
+      std::array<Tensor<1, dim>, Walls<dim>::n> normals;
+      for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
+        for (const LocalIndex f : mesh.cell_faces[mesh.node_cells[k]])
+          if (const auto &of_face = mesh.face_nodes[f];
+              mesh.face_side[f] != Mesh<dim>::no_side && std::find(of_face.begin(), of_face.end(), node) != of_face.end())
+            normals[mesh.face_side[f]] += mesh.face_area[f] * mesh.face_normal[f];
+      for (Tensor<1, dim> &normal : normals)
+        normal /= normal.norm() > 0 ? normal.norm() : 1;
+      return normals;
+    }
+
+    /// What liquid touches of walls and solids it does not go through: there v has the speed of these along their normal, at nodes up to a
+    /// @p distance (m) from the liquid as far as these do not face it.
     template <int dim>
     void
-    stop_at_walls(const State<dim> &state, const LiquidDomain<dim> &domain, NodeVector<dim> &v)
+    stop_at_walls(const State<dim>        &state,
+                  const LiquidDomain<dim> &domain,
+                  const double             distance,
+                  NodeVector<dim>         &v)
     {
-      const auto set_speed = [&](const LocalIndex node, const Tensor<1, dim> &n, const double speed) {
-        const double other = speed - v.value(node) * n;
+      const NodeVector<dim> before    = combined(1, v, 0, v);
+      const auto            set_speed = [&](const LocalIndex node, const Tensor<1, dim> &n, const double speed) {
+        const double other = speed * n.norm_square() - v.value(node) * n;
         v.set(node, v.value(node) + (1 - part_that_faces(state, node, n)) * other * n);
       };
       for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
-        if (domain.solid_distance[node] <= 0)
-          {
-            const Tensor<1, dim> n = -solid_normal(domain, node);
-            set_speed(node, n, speed_behind_wall(domain, node, n, v));
-          }
-        else if (domain.mesh.node_sides[node] != 0 && !domain.is_emitter_node[node])
-          for (unsigned int wall = 0; wall < 2 * dim; ++wall)
-            if (domain.mesh.node_sides[node] >> wall & 1)
-              set_speed(node, (wall % 2 == 0 ? -1. : 1.) * Point<dim>::unit_vector(wall / 2), 0);
+        {
+          if (domain.is_emitter_node[node] || state.phi.local_element(node) > distance)
+            continue;
+          if (domain.solid_distance[node] <= 0)
+            {
+              const Tensor<1, dim> n = -solid_normal(domain, node);
+              set_speed(node, n, speed_behind_wall(domain, node, n, before));
+            }
+          if (domain.mesh.node_sides[node] != 0)
+            for (const Tensor<1, dim> &n : wall_normals(domain.mesh, node))
+              set_speed(node, n, 0);
+        }
       v.update_ghost_values();
     }
 
@@ -202,7 +230,7 @@ namespace treacle
   {
     NodeVector<dim> result = combined(1, v, 1, linear_part(state, domain, v, distance));
     continue_at_walls(domain, result);
-    stop_at_walls(state, domain, result);
+    stop_at_walls(state, domain, distance, result);
     if (divergence != nullptr)
       divergence->remove_from(result);
     return result;

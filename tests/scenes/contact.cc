@@ -173,8 +173,8 @@ namespace
           << " of that of lubrication" << std::endl;
   }
 
-  /// A drop of six leaves' radius on a solid whose side lies so many leaves above nodes, or on the floor; of all its volume, lost or won
-  /// before that is corrected.
+  /// Half or a quarter of a drop of six leaves' radius on a solid whose side lies so many leaves above nodes, or on the floor: of its volume, lost
+  /// or won before that is corrected.
   template <int dim>
   double
   lost_in_spreading(const MPI_Comm &comm, const double above)
@@ -184,10 +184,12 @@ namespace
     const std::string height = std::to_string(floor + 7 * h), side = std::to_string(floor);
     const auto        rows   = run_scene<dim>(
       comm,
-      "set End time = 0.3\nset Frame interval = 10\nset Maximum time step = 0.02\n"
-      "subsection Mesh\nset Surface level = 5\nset Interior level = 4\nend\n"
-      "subsection Material\nset Viscosity = 100\nend\nsubsection Liquid 1\nset Radius = " +
-        std::to_string(6 * h) + "\nset Centre = " + (dim == 2 ? "0.5, " : "0.5, 0.5, ") + height + "\nend\n" +
+      "set End time = 0.3\nset Frame interval = 10\nset Maximum time step = 0.02\nsubsection Domain\nset Upper corner = " +
+        std::string(dim == 2 ? "0.5, 0.5" : "0.5, 0.5, 0.5") +
+        "\nset Wall condition = default: free slip; bottom: no slip\nend\n"
+        "subsection Mesh\nset Surface level = 4\nset Interior level = 3\nend\n"
+        "subsection Material\nset Viscosity = 100\nend\nsubsection Liquid 1\nset Radius = " +
+        std::to_string(6 * h) + "\nset Centre = " + (dim == 2 ? "0, " : "0, 0, ") + height + "\nend\n" +
         (on_solid ? std::string("subsection Solid 1\nset Shape = half space\nset Centre = ") + (dim == 2 ? "0, " : "0, 0, ") + side +
                       "\nset Normal = " + (dim == 2 ? "0, 1" : "0, 0, 1") + "\nend\n" :
                     ""),

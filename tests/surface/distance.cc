@@ -71,8 +71,8 @@ check(const MPI_Comm &comm, const std::string &name, const unsigned int level)
                << Utilities::MPI::sum(distance, comm) << std::endl;
 }
 
-/// A corner of a body that stands on the floor, with two sides at 45 degrees to it: no point on the floor is nearer to it than the farther of
-/// their planes.
+/// A corner of a body that stands on the floor, with two sides at 45 degrees to it, which go on below as planes: no point on the floor is nearer
+/// to it than the farther of these, and those before one side are as near as its plane.
 void
 check_beyond_floor(const MPI_Comm &comm)
 {
@@ -84,13 +84,20 @@ check_beyond_floor(const MPI_Comm &comm)
     phi.local_element(node) = to_planes(mesh.node_position[node]);
   phi.update_ghost_values();
   const SurfaceDistance<3> surface(mesh, extract_surface(mesh, phi), 0.4);
-  double                   too_near = 0;
+  double                   too_near = 0, off = 0;
   for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
     if (const Point<3> &x = mesh.node_position[node]; x[2] == 0 && to_planes(x) > 0)
-      too_near = std::max(too_near, to_planes(x) - surface.nearest(x).distance);
+      {
+        const double nearer = to_planes(x) - surface.nearest(x).distance;
+        too_near            = std::max(too_near, nearer);
+        if (std::min(x[0], x[1]) < 0.4 && std::max(x[0], x[1]) < 0.9) // within reach
+          off = std::max(off, std::abs(nearer));
+      }
   too_near = Utilities::MPI::max(too_near, comm);
+  off      = Utilities::MPI::max(off, comm);
   tests::out() << "3D, on the floor beside a corner: nearer than the planes "
-               << (too_near < 1e-9 ? "nowhere" : "SOMEWHERE, by " + std::to_string(too_near)) << std::endl;
+               << (too_near < 1e-9 ? "nowhere" : "SOMEWHERE, by " + std::to_string(too_near)) << ", before one side "
+               << (off < 1e-9 ? "as near" : "OFF, by " + std::to_string(off)) << std::endl;
 }
 
 /// A marker so far from the middle node that it is felt, with the weight 0.

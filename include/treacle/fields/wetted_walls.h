@@ -8,7 +8,7 @@
 
 namespace treacle
 {
-  /// What the liquid of a cell wets of a wall: of a side of the mesh, or of a solid that cuts the cell. A P1 function is, in the mean over
+  /// What the liquid of a cell wets of a wall: of a side of the mesh, or of the solid that cuts the cell. A P1 function is, in the mean over
   /// it, the sum of its values at the cell's nodes times their weights.
   template <int dim>
   struct WettedWall
@@ -18,10 +18,11 @@ namespace treacle
     double            swept;  ///< what the wall itself sweeps, that way (m^dim/s)
   };
 
-  /// All in a cell where phi (m) is the level set. With the liquid's surface they bound its volume, but for what is cut of sides by solids.
+  /// All in a cell. With the liquid's surface they bound its volume, but for what is cut of sides by solids. Throws a UserError where a
+  /// solid's velocity makes no sense.
   template <int dim>
   std::vector<WettedWall<dim>>
-  wetted_walls(const LiquidDomain<dim> &domain, const Vector &phi, const LocalIndex cell);
+  wetted_walls(const LiquidDomain<dim> &domain, const State<dim> &state, const LocalIndex cell);
 } // namespace treacle
 
 #endif

@@ -68,6 +68,12 @@ namespace treacle
     const Point<dim> &
     upper_corner() const;
 
+    BoundingBox<dim>
+    box() const
+    {
+      return BoundingBox<dim>({lower, upper});
+    }
+
     /// How far (m) rounding may take points and distances, which are 0 where they are less.
     double
     rounding() const

@@ -12,13 +12,13 @@ namespace treacle
   /// them and continued into the air does not, and where the surface is curved as sharply
   /// as a leaf, as about a stream that enters a pool, it loses a third of what flows
   /// there. This takes the divergence of v out of the liquid within two leaves of the
-  /// surface, less what flows through walls: the least change of its nodes, in the mean over the liquid, after which what flows out
-  /// of the liquid of their cells through its surface, with each P1 weight, is zero,
+  /// surface, less what flows through walls: the least change of its nodes, in the mean over the liquid, after which it is zero in the
+  /// liquid of their cells in the mean with each P1 weight,
   ///
   ///   v - M^-1 B^T q,   (B M^-1 B^T + 0.1 L) q = B v - b,
   ///
-  /// with (B v)_i the integral of lambda_i div v less that of lambda_i v·n over the walls which the liquid touches, b_i what
-  /// these sweep, M the lumped volume of the liquid, and
+  /// with (B v)_i the integral of lambda_i div v less that of lambda_i v·n over the walls which the liquid touches (n out of it), b_i
+  /// what these sweep into it, M the lumped volume of the liquid and of a quarter of a leaf more on walls, and
   /// L the stiffness of q, without which weights that alternate from node to node are
   /// hardly seen. As the weights sum to one, and L q to zero, what flows through the
   /// surface is right as a whole. Components that are prescribed stay. Not in gaps
@@ -27,8 +27,8 @@ namespace treacle
   class SurfaceDivergence
   {
   public:
-    /// phi (m) and its gradient at nodes, with up-to-date ghosts; @p domain must outlive this object. Collective.
-    SurfaceDivergence(const Vector &phi, const NodeVector<dim> &gradient, const LiquidDomain<dim> &domain);
+    /// The gradient of phi at nodes, with up-to-date ghosts; @p domain must outlive this object. Collective; throws a UserError.
+    SurfaceDivergence(const State<dim> &state, const NodeVector<dim> &gradient, const LiquidDomain<dim> &domain);
 
     /// Of v (m/s), with up-to-date ghosts before and after. Collective.
     void
@@ -46,7 +46,7 @@ namespace treacle
     /// Of these cells.
     struct Wall
     {
-      unsigned int    cell; ///< by its place in cells
+      unsigned int    cell; ///< by its place in cells, in their order
       WettedWall<dim> part;
     };
 
@@ -54,7 +54,7 @@ namespace treacle
     struct Node
     {
       LocalIndex    index;
-      double        mass;       ///< liquid of these cells about a node that moves (m^dim); 0 if it does not
+      double        mass;       ///< M, of these cells about a node that moves (m^dim); 0 if it does not
       double        diagonal;   ///< of the matrix, without smoothing; positive where an owned node has a weight
       double        with_smoothing;
       unsigned char constrained; ///< by components
@@ -63,11 +63,15 @@ namespace treacle
     /// The cells whose divergence counts are those of the nodes that move; theirs weigh
     /// it, so that it cannot go elsewhere.
     void
-    find_cells(const Vector &phi, const NodeVector<dim> &gradient);
+    find_cells(const State<dim> &state, const NodeVector<dim> &gradient);
 
     /// A cell, and its nodes that have no place yet.
     void
     append(const LocalIndex cell, std::vector<unsigned int> &place);
+
+    /// The walls in the last cell, which is the mesh's @p c. Throws a UserError.
+    void
+    append_walls(const State<dim> &state, const LocalIndex c);
 
     bool
     is_free(const Node &node, const unsigned int d) const
@@ -75,10 +79,10 @@ namespace treacle
       return node.mass > 0 && !(node.constrained >> d & 1);
     }
 
-    /// What the walls take from the weights of nodes, of which @p through (wall) flows; to (node, value).
+    /// Share what @p through (wall) says among the nodes of its cell by their weights: to (node, part).
     template <typename Through, typename To>
     void
-    for_each_weight(const Through &through, const To &to) const
+    distribute(const Through &through, const To &to) const
     {
       for (const Wall &wall : walls)
         {

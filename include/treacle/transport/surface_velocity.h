@@ -13,8 +13,8 @@ namespace treacle
   ///   the faces knows nothing beyond the last of them and continues it as a constant: a wave
   ///   would be late as if its surface lay a third of a leaf deeper (case C4).
   /// - at walls and in solids the velocity of the nodes beside them. With the wall's own a film of
-  ///   air would remain under all that falls on it, for a P1 velocity vanishes there. In solids that liquid touches it is theirs along
-  ///   their normal: with that of the nodes beside them a film thinner than a leaf would go into the wall.
+  ///   air would remain under all that falls on it, for a P1 velocity vanishes there. Along the normal of what liquid touches, or stands on,
+  ///   it is the wall's: with that of the nodes beside it a film thinner than a leaf would go into the wall.
   /// - beside the surface without @p divergence; null for what pushes liquid out of walls, which has some.
   ///
   /// Velocity itself is not advected with this one: each step would continue what the step
