@@ -86,10 +86,14 @@ namespace treacle
           smallest = std::min(smallest, mesh.cell_size[mesh.node_cells[k]]);
         return smallest;
       };
-      bool has = false;
-      for (LocalIndex node = 0; node < mesh.n_owned_nodes() && !has; ++node)
-        has = distance(mesh.node_position[node]) < 0 &&
-              has_room<dim>(mesh.node_position[node], distance, scene.box(), thin * size(node));
+      bool        has = false;
+      std::string error;
+      keep_error(error, [&] {
+        for (LocalIndex node = 0; node < mesh.n_owned_nodes() && !has; ++node)
+          has = distance(mesh.node_position[node]) < 0 &&
+                has_room<dim>(mesh.node_position[node], distance, scene.box(), thin * size(node));
+      });
+      throw_first(mesh.communicator(), error);
       require(Utilities::MPI::max(has ? 1 : 0, mesh.communicator()) == 1,
               emitter.where + " is too thin, what it pours would be lost: let it be a leaf (" +
                 digits(mesh.finest_size()) + " m) thick, or reach half a leaf into the box, or " +
@@ -146,14 +150,15 @@ namespace treacle
         [&](const Point<dim> &x) { return scene.liquid_distance(k, x); },
         0);
     for (const Emitter<dim> &emitter : scene.emitters())
-      check_body<dim>(
-        mesh,
-        scene,
-        emitter.where,
-        [&](const Point<dim> &x) { return emitter.signed_distance(x); },
-        emitter.start_time);
-    for (const Emitter<dim> &emitter : scene.emitters())
-      check_thickness(mesh, scene, emitter);
+      {
+        check_body<dim>(
+          mesh,
+          scene,
+          emitter.where,
+          [&](const Point<dim> &x) { return emitter.signed_distance(x); },
+          emitter.start_time);
+        check_thickness(mesh, scene, emitter);
+      }
   }
 
   template <int dim>

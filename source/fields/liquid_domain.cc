@@ -4,6 +4,7 @@
 #include <treacle/base/choice.h>
 #include <treacle/base/exchange.h>
 #include <treacle/fields/face_opening.h>
+#include <treacle/fields/gradients.h>
 #include <treacle/fields/held_nodes.h>
 #include <treacle/fields/liquid_domain.h>
 #include <treacle/fields/viscosity_jumps.h>
@@ -104,11 +105,8 @@ namespace treacle
         return;
       }
     // P1: the value at the centroid is the mean over the liquid part
-    const Point<dim> &origin = mesh.node_position[mesh.cell_nodes[c][0]];
-    VertexValues<dim> lambda;
-    for (unsigned int i = 0; i <= dim; ++i)
-      lambda[i] = (i == 0) + mesh.cell_gradients[c][i] * (liquid_centre[c] - origin);
-    const auto mean = [&](const Vector &field) {
+    const VertexValues<dim> lambda = weights_at(mesh, c, liquid_centre[c]);
+    const auto              mean = [&](const Vector &field) {
       const VertexValues<dim> values = mesh.values(c, field);
       const double            value  = interpolate(values, lambda);
       // the centroid of next to nothing may lie outside of its cell

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/fields/gradients.h>
 #include <treacle/fields/wetted_walls.h>
 #include <treacle/geometry/marching.h>
 
@@ -23,17 +24,6 @@ namespace treacle
       {}
     };
 
-    /// A wall in a cell that does not move.
-    template <int dim>
-    WettedWall<dim>
-    wall_at(const Mesh<dim> &mesh, const LocalIndex cell, const Tensor<1, dim> &area, const Point<dim> &centre)
-    {
-      WettedWall<dim> wall{{}, area, 0};
-      for (unsigned int i = 0; i <= dim; ++i)
-        wall.weight[i] = (i == 0) + mesh.cell_gradients[cell][i] * (centre - mesh.node_position[mesh.cell_nodes[cell][0]]);
-      return wall;
-    }
-
     /// Outside of solids.
     template <int dim>
     WettedWall<dim>
@@ -49,7 +39,7 @@ namespace treacle
           at_corners[i]         = std::max(phi.local_element(node), -domain.solid_distance[node]);
         }
       const PartOfFacet<dim> part(x, at_corners);
-      return wall_at(mesh, cell, part.area.norm() * mesh.face_normal[face], part.centre);
+      return {weights_at(mesh, cell, part.centre), part.area.norm() * mesh.face_normal[face], 0};
     }
 
     /// In a plane, as the distance from it is linear in the cell.
@@ -80,9 +70,7 @@ namespace treacle
       if (area.norm() == 0)
         return {};
       const Point<dim> centre(moment / area.norm());
-      WettedWall<dim>  wall = wall_at(mesh, cell, area, centre);
-      wall.swept            = domain.scene.solid_velocity(centre, state.time) * area;
-      return wall;
+      return {weights_at(mesh, cell, centre), area, domain.scene.solid_velocity(centre, state.time) * area};
     }
   } // namespace
 

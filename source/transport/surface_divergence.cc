@@ -231,10 +231,7 @@ namespace treacle
       }
     distribute(
       [this](const Wall &wall) {
-        Tensor<1, dim> v;
-        for (unsigned int i = 0; i <= dim; ++i)
-          v += wall.part.weight[i] * velocity[cells[wall.cell].nodes[i]];
-        return v * wall.part.area;
+        return wall.part.mean([&](const unsigned int i) { return velocity[cells[wall.cell].nodes[i]]; }) * wall.part.area;
       },
       [this](const unsigned int k, const double volume) { sum[k] -= volume; });
     r = 0;
@@ -259,9 +256,7 @@ namespace treacle
     for (const Wall &wall : walls)
       {
         const auto &of_cell = cells[wall.cell].nodes;
-        double      there   = 0;
-        for (unsigned int i = 0; i <= dim; ++i)
-          there += wall.part.weight[i] * q.local_element(nodes[of_cell[i]].index);
+        const double there = wall.part.mean([&](const unsigned int i) { return q.local_element(nodes[of_cell[i]].index); });
         for (unsigned int i = 0; i <= dim; ++i)
           force[of_cell[i]] -= wall.part.weight[i] * there * wall.part.area;
       }
@@ -281,10 +276,10 @@ namespace treacle
     q.update_ghost_values();
     weigh(v, q, d);
     distribute([](const Wall &wall) { return wall.part.swept; },
-                    [&](const unsigned int k, const double volume) {
-                      if (const Node &node = nodes[k]; node.index < mesh.n_owned_nodes() && node.diagonal > 0)
-                        d.local_element(node.index) += volume;
-                    });
+               [&](const unsigned int k, const double volume) {
+                 if (const Node &node = nodes[k]; node.index < mesh.n_owned_nodes() && node.diagonal > 0)
+                   d.local_element(node.index) += volume;
+               });
     q.zero_out_ghost_values();
     const double norm = d.l2_norm();
     if (!(norm > 0))

@@ -186,24 +186,24 @@ namespace treacle
                   const double             distance,
                   NodeVector<dim>         &v)
     {
-      const NodeVector<dim> before    = combined(1, v, 0, v);
-      const auto            set_speed = [&](const LocalIndex node, const Tensor<1, dim> &n, const double speed) {
+      const auto is_near   = [&](const LocalIndex node) { return state.phi.local_element(node) <= distance; };
+      const auto set_speed = [&](const LocalIndex node, const Tensor<1, dim> &n, const double speed) {
+        if (n.norm_square() == 0)
+          return;
         const double other = speed * n.norm_square() - v.value(node) * n;
         v.set(node, v.value(node) + (1 - part_that_faces(state, node, n)) * other * n);
       };
       for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
-        {
-          if (domain.is_emitter_node[node] || state.phi.local_element(node) > distance)
-            continue;
-          if (domain.solid_distance[node] <= 0)
-            {
-              const Tensor<1, dim> n = -solid_normal(domain, node);
-              set_speed(node, n, speed_behind_wall(domain, node, n, before));
-            }
-          if (domain.mesh.node_sides[node] != 0)
-            for (const Tensor<1, dim> &n : wall_normals(domain.mesh, node))
-              set_speed(node, n, 0);
-        }
+        if (domain.solid_distance[node] <= 0 && is_near(node))
+          {
+            const Tensor<1, dim> n = -solid_normal(domain, node);
+            set_speed(node, n, speed_behind_wall(domain, node, n, v));
+          }
+      // later, for those in solids follow free nodes, which may lie on sides
+      for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
+        if (domain.mesh.node_sides[node] != 0 && is_near(node) && !domain.is_emitter_node[node])
+          for (const Tensor<1, dim> &n : wall_normals(domain.mesh, node))
+            set_speed(node, n, 0);
       v.update_ghost_values();
     }
 

@@ -217,7 +217,7 @@ namespace tests::transport_surface_divergence
             << bounded(Utilities::MPI::max(moved, comm), 1e-15) << std::endl;
     }
 
-    /// Half of one, on a solid that moves as it does.
+    /// One about a solid, which moves as that does.
     template <int dim>
     void
     check_moving_solid(const MPI_Comm &comm, const unsigned int level)
@@ -260,8 +260,7 @@ namespace tests::transport_surface_divergence
         for (const WettedWall<dim> &wall : wetted_walls(body.domain, body.state, c))
           {
             area -= wall.area[1];
-            for (unsigned int i = 0; i <= dim; ++i)
-              through += wall.weight[i] * (down.value(mesh.cell_nodes[c][i]) * wall.area);
+            through += wall.mean([&](const unsigned int i) { return down.value(mesh.cell_nodes[c][i]); }) * wall.area;
           }
       area            = Utilities::MPI::sum(area, comm) / (dim == 2 ? 0.6 : 0.09 * numbers::PI);
       through         = Utilities::MPI::sum(through, comm);

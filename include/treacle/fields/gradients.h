@@ -31,6 +31,18 @@ namespace treacle
     return g;
   }
 
+  /// With which the values of P1 functions at the nodes of a cell give those at a point, beyond the cell too.
+  template <int dim>
+  VertexValues<dim>
+  weights_at(const Mesh<dim> &mesh, const LocalIndex cell, const Point<dim> &x)
+  {
+    const Tensor<1, dim> from_first = x - mesh.node_position[mesh.cell_nodes[cell][0]];
+    VertexValues<dim>    weights;
+    for (unsigned int i = 0; i <= dim; ++i)
+      weights[i] = (i == 0) + mesh.cell_gradients[cell][i] * from_first;
+    return weights;
+  }
+
   /// The volume-weighted mean of @p value (cell) over the cells around an owned node that @p counts
   /// holds for; false if there are none.
   template <int dim, typename Counts, typename Value, typename Result>

@@ -16,6 +16,17 @@ namespace treacle
     VertexValues<dim> weight; ///< of the nodes, at the centroid
     Tensor<1, dim>    area;   ///< (m^(dim-1)), out of the liquid
     double            swept;  ///< what the wall itself sweeps, that way (m^dim/s)
+
+    /// Over the wall, of what has a @p value (i) at the nodes of the cell.
+    template <typename Value>
+    auto
+    mean(const Value &value) const
+    {
+      auto sum = weight[0] * value(0);
+      for (unsigned int i = 1; i <= dim; ++i)
+        sum += weight[i] * value(i);
+      return sum;
+    }
   };
 
   /// All in a cell. With the liquid's surface they bound its volume, but for what is cut of sides by solids. Throws a UserError where a
