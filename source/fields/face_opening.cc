@@ -70,13 +70,12 @@ namespace treacle
     const Point<dim>      centre      = negative_centroid<dim>(v.x, held);
     const Tensor<1, dim> &normal      = mesh.face_normal[f];
     const double          held_part   = fraction_within<dim - 1>(held), poured = poured_fraction(v, held_part);
-    const double          by_emitters = poured > 0 ? scene.emitter_velocity(centre, time) * normal : 0.;
-    if (is_wall) // at rest
-      return {0, poured * by_emitters};
-    if (poured > 0 && poured == held_part)
-      return {open_fraction, by_emitters};
-    const double by_solids = scene.solid_velocity(centre, time) * normal;
-    return {open_fraction, poured > 0 ? by_solids + poured / held_part * (by_emitters - by_solids) : by_solids};
+    if (held_part == 0)
+      return {open_fraction, 0};
+    const double by_emitters = poured > 0 ? scene.emitter_velocity(centre, time) * normal : 0.;
+    const double by_solids   = poured < held_part ? scene.solid_velocity(centre, time) * normal : 0.;
+    const double velocity    = by_solids + poured / held_part * (by_emitters - by_solids);
+    return {open_fraction, is_wall ? held_part * velocity : velocity}; // the rest of a wall is at rest
   }
 
   template class FaceOpening<2>;

@@ -7,6 +7,7 @@
 #include <treacle/fields/gradients.h>
 #include <treacle/fields/held_nodes.h>
 #include <treacle/fields/liquid_domain.h>
+#include <treacle/fields/meeting_solids.h>
 #include <treacle/fields/viscosity_jumps.h>
 
 namespace treacle
@@ -51,6 +52,7 @@ namespace treacle
     prescribed          = std::move(held.prescribed);
     find_free_cells();
     measure_faces(state);
+    find_meeting_solids(state.time);
     measure_nodes();
   }
 
@@ -200,6 +202,34 @@ namespace treacle
 
   template <int dim>
   void
+  LiquidDomain<dim>::find_meeting_solids(const double time)
+  {
+    if (scene.n_solids() < 2 || !scene.has_moving_solids())
+      return;
+    VertexValues<dim> whole;
+    whole.fill(-1);
+    std::string error;
+    for (LocalIndex c = 0; c < mesh.cell_nodes.size(); ++c)
+      {
+        const VertexValues<dim> distance = mesh.values(c, solid_distance);
+        const auto [lower, upper]        = std::minmax_element(distance.begin(), distance.end());
+        if (!is_active_cell[c] || *lower > 0 || *upper <= 0 ||
+            std::any_of(mesh.cell_nodes[c].begin(), mesh.cell_nodes[c].end(), [this](const LocalIndex n) { return is_emitter_node[n]; }))
+          continue;
+        keep_error(error, [&] {
+          if (const auto swept = swept_by_meeting_solids(mesh, scene, c, whole, time))
+            {
+              closed_excess[c] = *swept;
+              for (const LocalIndex f : mesh.cell_faces[c])
+                closed_excess[c] -= (mesh.face_cells[f][0] == c ? 1 : -1) * mesh.face_area[f] * (1 - open_fraction[f]) * solid_velocity[f];
+            }
+        });
+      }
+    throw_first(mesh.communicator(), error);
+  }
+
+  template <int dim>
+  void
   LiquidDomain<dim>::find_free_cells()
   {
     Vector is_bound = mesh.zeros(mesh.nodes);
@@ -263,6 +293,7 @@ namespace treacle
   {
     const auto domain = std::make_shared<LiquidDomain>(*this);
     std::fill(domain->solid_velocity.begin(), domain->solid_velocity.end(), 0.);
+    domain->closed_excess.clear();
     std::fill(domain->prescribed.begin(), domain->prescribed.end(), Tensor<1, dim>());
     return domain;
   }

@@ -2,8 +2,9 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/fields/gradients.h>
+#include <treacle/fields/meeting_solids.h>
 #include <treacle/fields/wetted_walls.h>
-#include <treacle/geometry/marching.h>
+#include <treacle/geometry/wall_part.h>
 
 #include <algorithm>
 
@@ -11,19 +12,6 @@ namespace treacle
 {
   namespace
   {
-    /// The part of a facet where a P1 function is negative at its corners.
-    template <int dim>
-    struct PartOfFacet
-    {
-      Tensor<1, dim> area;
-      Point<dim>     centre;
-
-      PartOfFacet(const std::array<Point<dim>, dim> &x, const VertexValues<dim - 1> &phi)
-        : area(negative_fraction<dim - 1>(phi) * area_vector<dim>(x))
-        , centre(negative_centroid<dim>(x, phi))
-      {}
-    };
-
     /// Outside of solids.
     template <int dim>
     WettedWall<dim>
@@ -38,7 +26,7 @@ namespace treacle
           x[i]                  = mesh.node_position[node];
           at_corners[i]         = std::max(phi.local_element(node), -domain.solid_distance[node]);
         }
-      const PartOfFacet<dim> part(x, at_corners);
+      const WallPart<dim> part = wall_part<dim>(x, at_corners);
       return {weights_at(mesh, cell, part.centre), part.area.norm() * mesh.face_normal[face], 0};
     }
 
@@ -47,30 +35,16 @@ namespace treacle
     WettedWall<dim>
     of_solid(const LiquidDomain<dim> &domain, const State<dim> &state, const LocalIndex cell)
     {
-      const Mesh<dim>        &mesh     = domain.mesh;
-      const VertexValues<dim> at_nodes = mesh.values(cell, state.phi);
-      VertexValues<dim>       depth    = mesh.values(cell, domain.solid_distance);
+      const Mesh<dim>        &mesh  = domain.mesh;
+      const VertexValues<dim> phi   = mesh.values(cell, state.phi);
+      VertexValues<dim>       depth = mesh.values(cell, domain.solid_distance);
       std::transform(depth.begin(), depth.end(), depth.begin(), std::negate<double>());
-      const auto position = [&](const unsigned int i) -> const Point<dim> & {
-        return mesh.node_position[mesh.cell_nodes[cell][i]];
-      };
-      Tensor<1, dim>    area, moment;
-      const Facets<dim> facets = surface_facets<dim>(depth);
-      for (unsigned int k = 0; k < facets.n; ++k)
-        {
-          VertexValues<dim - 1> at_corners;
-          std::transform(facets.facet[k].begin(), facets.facet[k].end(), at_corners.begin(), [&](const auto &edge) {
-            const auto [a, b] = edge;
-            return at_nodes[a] + edge_zero(depth[a], depth[b]) * (at_nodes[b] - at_nodes[a]);
-          });
-          const PartOfFacet<dim> part(facet_points<dim>(facets.facet[k], depth, position), at_corners);
-          area += part.area;
-          moment += part.area.norm() * part.centre;
-        }
-      if (area.norm() == 0)
+      const WallPart<dim> part = wall_part<dim>(mesh.cell_vertices(cell), depth, phi);
+      if (part.area.norm() == 0)
         return {};
-      const Point<dim> centre(moment / area.norm());
-      return {weights_at(mesh, cell, centre), area, domain.scene.solid_velocity(centre, state.time) * area};
+      const auto   meeting = domain.closed_excess.empty() ? std::nullopt : swept_by_meeting_solids(mesh, domain.scene, cell, phi, state.time);
+      const double swept   = meeting ? *meeting : domain.scene.solid_velocity(part.centre, state.time) * part.area;
+      return {weights_at(mesh, cell, part.centre), part.area, swept};
     }
   } // namespace
 

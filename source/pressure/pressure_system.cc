@@ -115,7 +115,8 @@ namespace treacle
         flux += sign * domain.mesh.face_area[f] *
                 (alpha * u.local_element(f) + (1 - alpha) * domain.solid_velocity[f]);
       }
-    return flux;
+    const auto excess = domain.closed_excess.find(c);
+    return excess == domain.closed_excess.end() ? flux : flux + excess->second;
   }
 
   template <int dim>

@@ -40,6 +40,13 @@ namespace treacle
   }
 
   template <int dim>
+  double
+  Solids<dim>::solid_distance(const unsigned int k, const Point<dim> &x, const double t) const
+  {
+    return solids[k].signed_distance(x, t);
+  }
+
+  template <int dim>
   bool
   Solids<dim>::has_moving_solids() const
   {
@@ -78,6 +85,13 @@ namespace treacle
   Solids<dim>::solid_velocity(const Point<dim> &x, const double t) const
   {
     return has_moving_solids() ? solids[nearest_solid(x, t)].velocity(x, t) : Tensor<1, dim>();
+  }
+
+  template <int dim>
+  Tensor<1, dim>
+  Solids<dim>::solid_velocity(const unsigned int k, const Point<dim> &x, const double t) const
+  {
+    return solids[k].velocity(x, t);
   }
 
   template <int dim>

@@ -130,6 +130,9 @@ namespace treacle
   Reactions<dim>::add_pressure(const Vector &pressure, const double step)
   {
     const Mesh<dim> &mesh = domain.mesh;
+    for (const auto &[c, excess] : domain.closed_excess)
+      if (c < mesh.n_owned_cells())
+        work -= step * pressure.local_element(c) * excess;
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       {
         const LocalIndex beyond = mesh.face_cells[f][1];

@@ -6,6 +6,8 @@
 // of the steady flow u = A r + B / r; the solid as a velocity and as a position.
 // A ball that dips in and out of a pool beside a stirrer: where the contact line goes up and down each step is off by
 // 0.05 % of the volume, halves as much as wholes, and are not taken for it.
+// A belt that moves up out of the floor, of the box or of a solid, beside a pool: where it leaves the floor it sweeps nothing. (Else it drains
+// what is under its way in the cell there, wherever the surface is.)
 // Argument: level.
 
 #include "../tests.h"
@@ -60,6 +62,43 @@ stir(const MPI_Comm &comm)
         << ", off by less than 0.2 % in each: " << (drift < 2e-3 ? "yes" : "no") << std::endl;
 }
 
+/// What the pool wins, over the belt's way: the thickness of the layer (leaves).
+template <int dim>
+double
+won_beside_belt(const MPI_Comm &comm, const std::string &floor)
+{
+  const std::string    y     = dim == 3 ? "0, " : "";
+  const double         speed = 0.2, end = 0.2;
+  const unsigned int   level = dim == 3 ? 4 : 6;
+  const auto rows = run_scene<dim>(
+    comm,
+    "set End time = " + std::to_string(end) + "\nset Frame interval = 10\nset Maximum time step = 0.02\n"
+    "subsection Mesh\nset Surface level = " + std::to_string(level) + "\nend\n"
+    "subsection Liquid 1\nset Shape = half space\nset Centre = 0, " + y + "0.5\nset Normal = 0, " + y + "1\nend\n"
+    "subsection Solid 1\nset Shape = half space\nset Centre = 0.1, 0.1" + (dim == 3 ? ", 0" : "") + "\nset Normal = 1, 0" + (dim == 3 ? ", 0" : "") +
+    "\nset Velocity = 0; " + (dim == 3 ? "0; " : "") + std::to_string(speed) + "\nend\n" + floor,
+    dim);
+  double won = 0;
+  for (const Row &row : rows)
+    won += row.at("Drift before correction") * row.at("Liquid volume (m^" + std::to_string(dim) + ")");
+  return won / (speed * end) * (1 << level);
+}
+
+void
+leave_floors(const MPI_Comm &comm)
+{
+  for (const std::string height : {"", "0.15"})
+    {
+      const auto floor = [&](const std::string &y) {
+        return height.empty() ? "" : "subsection Solid 2\nset Shape = half space\nset Centre = 0, " + y + height + "\nset Normal = 0, " + y + "1\nend\n";
+      };
+      const double won_2d = won_beside_belt<2>(comm, floor("")), won_3d = won_beside_belt<3>(comm, floor("0, "));
+      out() << "belt out of " << (height.empty() ? "the floor" : "a floor at " + height)
+            << ": the pool wins or loses less than 0.1 leaves of its way: " << (std::abs(won_2d) < 0.1 ? "yes" : "no: " + std::to_string(won_2d))
+            << ", 3D: " << (std::abs(won_3d) < 0.1 ? "yes" : "no: " + std::to_string(won_3d)) << std::endl;
+    }
+}
+
 void
 start(const int argc, char **argv)
 {
@@ -74,6 +113,7 @@ start(const int argc, char **argv)
               << " %" << std::endl;
       }
     stir(comm);
+    leave_floors(comm);
   });
 }
 

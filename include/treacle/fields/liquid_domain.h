@@ -8,6 +8,8 @@
 #include <treacle/fields/mesh_data.h>
 #include <treacle/fields/state.h>
 
+#include <map>
+
 namespace treacle
 {
   /// Where the liquid is, and how much of it a cell, face and node carries:
@@ -64,6 +66,8 @@ namespace treacle
     /// Normal velocity where there is no unknown: of walls, solids, emitters.
     std::vector<double> solid_velocity;
     unsigned int        n_clamped_faces = 0; ///< theta clamped, over all ranks
+    /// What solids that meet in a cell sweep out of its open part, less what the closed parts of its faces carry (m^dim/s).
+    std::map<LocalIndex, double> closed_excess;
 
     // -- nodes --
     std::vector<unsigned char> is_active_node; ///< of an active cell
@@ -135,6 +139,10 @@ namespace treacle
 
     void
     measure_faces(const State<dim> &state);
+
+    /// closed_excess.
+    void
+    find_meeting_solids(const double time);
 
     void
     find_free_cells();

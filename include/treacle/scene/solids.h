@@ -38,9 +38,15 @@ namespace treacle
     double
     moving_solid_distance(const Point<dim> &x, const double t) const;
 
-    /// Of the nearest solid (m/s).
+    /// To solid k.
+    double
+    solid_distance(const unsigned int k, const Point<dim> &x, const double t) const;
+
+    /// Of the nearest solid (m/s), or of solid k.
     Tensor<1, dim>
     solid_velocity(const Point<dim> &x, const double t) const;
+    Tensor<1, dim>
+    solid_velocity(const unsigned int k, const Point<dim> &x, const double t) const;
 
     /// The solid (from 0) of smallest distance; there is at least one.
     unsigned int
