@@ -171,8 +171,7 @@ namespace treacle
     CarriedFields<dim> now   = carry(fields_of(old.v), velocity.carried, difference.dt);
     Paths              paths = paths_to(std::move(ends), now);
     add(faces.liquid, 1, paths.values);
-    if (&mesh == old.mesh.get())
-      keep_what_nodes_miss(old, domain, difference, faces.all, state.u);
+    keep_what_nodes_miss(old, domain, difference, mesh, faces.all, state.u);
     std::optional<Past> past;
     if (difference.before != 0)
       past.emplace(this->past(std::move(now)));

@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/fields/face_node.h>
+#include <treacle/mesh/same_faces.h>
 #include <treacle/transport/face_residual.h>
 
 namespace treacle
@@ -49,21 +50,33 @@ namespace treacle
   keep_what_nodes_miss(const State<dim>              &old,
                        const LiquidDomain<dim>       &domain,
                        const BackwardDifference      &difference,
+                       const Mesh<dim>               &other,
                        const std::vector<LocalIndex> &faces,
                        Vector                        &u)
   {
     const Mesh<dim> &mesh      = domain.mesh;
     const bool       remembers = difference.before != 0 && old.before->u;
-    for (const LocalIndex f : faces)
+    Vector           kept      = mesh.zeros(mesh.faces);
+    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       if (domain.is_liquid_face(f))
         {
           const double speed = mean_at_face(mesh, old.v, f).norm(),
                        moved = difference.dt * speed / (between_faces * size_at_face(mesh, f));
-          double kept        = missed(old, f);
-          if (remembers)
-            kept = difference.now * kept + difference.before * old.before->u->local_element(f);
-          u.local_element(f) += std::max(0., 1 - moved) * kept;
+          const double now   = missed(old, f);
+          kept.local_element(f) =
+            std::max(0., 1 - moved) *
+            (remembers ? difference.now * now + difference.before * old.before->u->local_element(f) : now);
         }
+    if (&other == &mesh)
+      {
+        for (const LocalIndex f : faces)
+          u.local_element(f) += kept.local_element(f);
+        return;
+      }
+    kept.update_ghost_values();
+    const std::vector<double> values = values_of_same_faces(mesh, kept, other, faces);
+    for (unsigned int i = 0; i < faces.size(); ++i)
+      u.local_element(faces[i]) += values[i];
   }
 
   template <int dim>
@@ -86,6 +99,7 @@ namespace treacle
   template void   keep_what_nodes_miss(const State<dim> &,                           \
                                      const LiquidDomain<dim> &,                    \
                                      const BackwardDifference &,                   \
+                                     const Mesh<dim> &,                            \
                                      const std::vector<LocalIndex> &,              \
                                      Vector &);
   INSTANTIATE(2)

@@ -48,7 +48,7 @@ namespace treacle
         if (level < prm.air_level)
           return std::vector<bool>(leaves.size(), true);
         if (level < prm.interior_level || sizing.asks_in_liquid(time))
-          refine_liquid(leaves, refine);
+          refine_liquid(leaves, level, refine);
         return refine;
       },
       [&](const std::vector<Leaf<dim>> &leaves) {
@@ -107,7 +107,7 @@ namespace treacle
   bool
   OctreeGrowth<dim>::is_any_too_coarse(const std::vector<Leaf<dim>> &leaves) const
   {
-    const std::vector<bool> coarse = are_too_coarse(leaves, phi_at_centres(leaves), false);
+    const std::vector<bool> coarse = are_too_coarse(leaves, false);
     const bool              here   = std::find(coarse.begin(), coarse.end(), true) != coarse.end();
     return Utilities::MPI::max(here ? 1 : 0, comm) > 0;
   }
@@ -141,7 +141,8 @@ namespace treacle
     const double     reach  = half_diagonal<dim>(edge) + (while_growing ? 0.5 * edge : 0.);
     const Point<dim> x      = centre<dim>(prm, leaf);
     bool             result = sizing.level_in_liquid(x, reach, time) > leaf.level ||
-                  (leaf.level < prm.surface_level && sizing.jumps_in(x, edge, time, while_growing));
+                  (leaf.level < prm.surface_level &&
+                   (sizing.jumps_in(x, edge, time, while_growing) || sizing.walls_bend_in(x, edge, time, while_growing)));
     for (unsigned int child = 0; child < 1u << dim && while_growing && !result; ++child)
       result = sizing.level_in_liquid(vertex_of_cube<dim>(x, 0.5 * edge, child), 0, time) > leaf.level;
     return result;
@@ -150,35 +151,40 @@ namespace treacle
   template <int dim>
   std::vector<bool>
   OctreeGrowth<dim>::are_too_coarse(const std::vector<Leaf<dim>> &leaves,
-                                    const std::vector<double>    &phi_at_centre,
                                     const bool                    while_growing) const
   {
-    // phi is a distance near the surface only; around it bands make leaves fine
-    const double      known = 2 * prm.size_of(prm.coarsest_at_surface());
-    std::vector<bool> result(leaves.size(), false);
-    std::string       error;
+    std::vector<bool>      result(leaves.size(), false);
+    std::vector<Leaf<dim>> coarse;
+    std::string            error;
     keep_error(error, [&] {
       for (unsigned int i = 0; i < leaves.size(); ++i)
-        result[i] =
-          phi_at_centre[i] < std::min(known, half_diagonal<dim>(prm.size_of(leaves[i].level))) &&
-          is_too_coarse(leaves[i], while_growing);
+        if ((result[i] = is_too_coarse(leaves[i], while_growing)))
+          coarse.push_back(leaves[i]);
     });
     throw_first(comm, error);
+    // phi is a distance near the surface only; around it bands make leaves fine
+    const double              known = 2 * prm.size_of(prm.coarsest_at_surface());
+    const std::vector<double> phi   = phi_at_centres(coarse);
+    for (unsigned int i = 0, k = 0; i < leaves.size(); ++i)
+      if (result[i])
+        result[i] = phi[k++] < std::min(known, half_diagonal<dim>(prm.size_of(leaves[i].level)));
     return result;
   }
 
   template <int dim>
   void
-  OctreeGrowth<dim>::refine_liquid(const std::vector<Leaf<dim>> &leaves, std::vector<bool> &refine) const
+  OctreeGrowth<dim>::refine_liquid(const std::vector<Leaf<dim>> &leaves, const unsigned int level, std::vector<bool> &refine) const
   {
-    const std::vector<double> values = phi_at_centres(leaves);
     if (sizing.asks_in_liquid(time))
       {
-        const std::vector<bool> asked = are_too_coarse(leaves, values, true);
+        const std::vector<bool> asked = are_too_coarse(leaves, true);
         std::transform(refine.begin(), refine.end(), asked.begin(), refine.begin(), std::logical_or<>());
       }
+    if (level >= prm.interior_level)
+      return;
+    const std::vector<double> values = phi_at_centres(leaves);
     for (unsigned int i = 0; i < leaves.size(); ++i)
-      refine[i] = refine[i] || (leaves[i].level < prm.interior_level && values[i] < 0);
+      refine[i] = refine[i] || values[i] < 0;
   }
 
   template class OctreeGrowth<2>;

@@ -161,7 +161,7 @@ namespace
     };
     out() << dim << "D: drag, cells " << fine.back().at("Cells") << ", by velocity " << asked.front().at("Cells")
           << " to " << asked.back().at("Cells") << ", force "
-          << (error(asked) < 0.01 ? "within 1 %" : "OFF") << ", without " << (error(coarse) < 0.05 ? "TOO" : "not")
+          << (error(asked) < 0.002 ? "within 0.2 %" : "OFF") << ", without " << (error(coarse) < 0.002 ? "TOO" : "not")
           << std::endl;
   }
 

@@ -77,7 +77,7 @@ won_beside_belt(const MPI_Comm &comm, const std::string &floor)
     "subsection Liquid 1\nset Shape = half space\nset Centre = 0, " + y + "0.5\nset Normal = 0, " + y + "1\nend\n"
     "subsection Solid 1\nset Shape = half space\nset Centre = 0.1, 0.1" + (dim == 3 ? ", 0" : "") + "\nset Normal = 1, 0" + (dim == 3 ? ", 0" : "") +
     "\nset Velocity = 0; " + (dim == 3 ? "0; " : "") + std::to_string(speed) + "\nend\n" + floor,
-    dim);
+    2);
   double won = 0;
   for (const Row &row : rows)
     won += row.at("Drift before correction") * row.at("Liquid volume (m^" + std::to_string(dim) + ")");

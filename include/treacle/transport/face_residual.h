@@ -21,15 +21,16 @@ namespace treacle
   void
   forget_missed(State<dim> &state, const LiquidDomain<dim> &domain, const Vector &blow);
 
-  /// What the nodes do not know of the old velocity of some owned faces, in the manner of the backward
-  /// difference, is added to what they have of it in a step on the same mesh, @p u: as long as the liquid does
+  /// What the nodes do not know of the old velocity of some owned faces of a @p mesh, in the manner of the backward
+  /// difference, is added to what they have of it, @p u: as long as the liquid does
   /// not get from one face to the next. Dropped in each step, it would be lost the faster the smaller the
-  /// steps are.
+  /// steps are. Faces that the old mesh did not have get nothing. Collective.
   template <int dim>
   void
   keep_what_nodes_miss(const State<dim>              &old,
                        const LiquidDomain<dim>       &domain,
                        const BackwardDifference      &difference,
+                       const Mesh<dim>               &mesh,
                        const std::vector<LocalIndex> &faces,
                        Vector                        &u);
 } // namespace treacle

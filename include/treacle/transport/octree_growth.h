@@ -73,12 +73,11 @@ namespace treacle
 
     std::vector<bool>
     are_too_coarse(const std::vector<Leaf<dim>> &leaves,
-                   const std::vector<double>    &phi_at_centre,
                    const bool                    while_growing) const;
 
     /// Those in the liquid, of one level, that anything asks to refine.
     void
-    refine_liquid(const std::vector<Leaf<dim>> &leaves, std::vector<bool> &refine) const;
+    refine_liquid(const std::vector<Leaf<dim>> &leaves, const unsigned int level, std::vector<bool> &refine) const;
 
     const MPI_Comm               comm;
     const OctreeParameters<dim> &prm;
