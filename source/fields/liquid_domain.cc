@@ -9,6 +9,7 @@
 #include <treacle/fields/liquid_domain.h>
 #include <treacle/fields/meeting_solids.h>
 #include <treacle/fields/viscosity_jumps.h>
+#include <treacle/scene/bodies.h>
 
 namespace treacle
 {
@@ -207,7 +208,7 @@ namespace treacle
     if (scene.n_solids() < 2 || !scene.has_moving_solids())
       return;
     VertexValues<dim> whole;
-    whole.fill(-1);
+    whole.fill(-far_away);
     std::string error;
     for (LocalIndex c = 0; c < mesh.cell_nodes.size(); ++c)
       {
@@ -218,11 +219,7 @@ namespace treacle
           continue;
         keep_error(error, [&] {
           if (const auto swept = swept_by_meeting_solids(mesh, scene, c, whole, time))
-            {
-              closed_excess[c] = *swept;
-              for (const LocalIndex f : mesh.cell_faces[c])
-                closed_excess[c] -= (mesh.face_cells[f][0] == c ? 1 : -1) * mesh.face_area[f] * (1 - open_fraction[f]) * solid_velocity[f];
-            }
+              closed_excess[c] = *swept - closed_outflow(c);
         });
       }
     throw_first(mesh.communicator(), error);
@@ -275,6 +272,17 @@ namespace treacle
     is_active_node.resize(node_mass.size());
     for (LocalIndex node = 0; node < node_mass.size(); ++node)
       is_active_node[node] = active.local_element(node) > 0;
+  }
+
+  template <int dim>
+  double
+  LiquidDomain<dim>::closed_outflow(const LocalIndex cell) const
+  {
+    const auto excess = closed_excess.find(cell);
+    double     flux   = excess == closed_excess.end() ? 0 : excess->second;
+    for (const LocalIndex f : mesh.cell_faces[cell])
+      flux += (mesh.face_cells[f][0] == cell ? 1 : -1) * mesh.face_area[f] * (1 - open_fraction[f]) * solid_velocity[f];
+    return flux;
   }
 
   template <int dim>

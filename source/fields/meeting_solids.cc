@@ -49,13 +49,19 @@ namespace treacle
     bool
     move_alike(const std::vector<SolidInCell<dim>> &solids, const Simplex<dim> &x, const Scene<dim> &scene, const double time)
     {
-      constexpr double rounding = 1e-12;
-      return std::all_of(x.begin(), x.end(), [&](const Point<dim> &vertex) {
-        const Tensor<1, dim> first = scene.solid_velocity(solids.front().index, vertex, time);
-        return std::all_of(solids.begin(), solids.end(), [&](const SolidInCell<dim> &solid) {
-          return (scene.solid_velocity(solid.index, vertex, time) - first).norm() <= rounding * first.norm();
-        });
-      });
+      constexpr double alike = 1e-6; // velocities from positions are differences
+      double           difference = 0, largest = 0;
+      for (const Point<dim> &vertex : x)
+        {
+          const Tensor<1, dim> first = scene.solid_velocity(solids.front().index, vertex, time);
+          for (const SolidInCell<dim> &solid : solids)
+            {
+              const Tensor<1, dim> velocity = scene.solid_velocity(solid.index, vertex, time);
+              difference                    = std::max(difference, (velocity - first).norm());
+              largest                       = std::max(largest, velocity.norm());
+            }
+        }
+      return difference <= alike * largest;
     }
   } // namespace
 

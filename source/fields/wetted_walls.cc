@@ -42,7 +42,7 @@ namespace treacle
       const WallPart<dim> part = wall_part<dim>(mesh.cell_vertices(cell), depth, phi);
       if (part.area.norm() == 0)
         return {};
-      const auto   meeting = domain.closed_excess.empty() ? std::nullopt : swept_by_meeting_solids(mesh, domain.scene, cell, phi, state.time);
+      const auto   meeting = domain.closed_excess.count(cell) > 0 ? swept_by_meeting_solids(mesh, domain.scene, cell, phi, state.time) : std::nullopt;
       const double swept   = meeting ? *meeting : domain.scene.solid_velocity(part.centre, state.time) * part.area;
       return {weights_at(mesh, cell, part.centre), part.area, swept};
     }

@@ -65,18 +65,13 @@ namespace treacle
     // net, of solids that make room too; through faces of emitters whichever way (m^dim/s)
     std::array<double, 2> poured{};
     for (const unsigned int i : pocket.rows)
-      for (const LocalIndex f : mesh.cell_faces[cells.owned[i]])
-        {
-          const auto  &nodes = mesh.face_nodes[f];
-          const double sign  = mesh.face_cells[f][0] == cells.owned[i] ? -1 : 1;
-          const double flux  = sign * mesh.face_area[f] * (1 - domain.open_fraction[f]) *
-                              domain.solid_velocity[f];
-          poured[0] += flux;
-          if (std::any_of(nodes.begin(), nodes.end(), [&](const LocalIndex node) {
-                return domain.is_emitter_node[node];
-              }))
-            poured[1] += std::abs(flux);
-        }
+      {
+        poured[0] -= domain.closed_outflow(cells.owned[i]);
+        for (const LocalIndex f : mesh.cell_faces[cells.owned[i]])
+          if (const auto &nodes = mesh.face_nodes[f];
+              std::any_of(nodes.begin(), nodes.end(), [&](const LocalIndex node) { return domain.is_emitter_node[node]; }))
+            poured[1] += std::abs(mesh.face_area[f] * (1 - domain.open_fraction[f]) * domain.solid_velocity[f]);
+      }
     Utilities::MPI::sum(ArrayView<const double>(poured.data(), 2),
                         mesh.communicator(),
                         ArrayView<double>(poured.data(), 2));

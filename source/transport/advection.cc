@@ -133,12 +133,9 @@ namespace treacle
 
   template <int dim>
   VelocityBefore<dim>
-  Advection<dim>::velocity_before(const Mesh<dim> &mesh) const
+  Advection<dim>::velocity_before(const State<dim> &next) const
   {
-    VelocityBefore<dim> before{dt, at_nodes_of(mesh, old.v), {}};
-    if (&mesh == old.mesh.get())
-      before.u = missed_by_nodes(old, domain);
-    return before;
+    return {dt, at_nodes_of(*next.mesh, old.v), missed_by_nodes(old, domain, next)};
   }
 
   template <int dim>

@@ -14,23 +14,6 @@ namespace treacle
     /// How far from the surface faces of the air begin, which few markers will find in the liquid, in leaves.
     constexpr double outside_leaves = 0.25;
 
-    /// The faces that may carry liquid: a node of them is in it, or will be once markers have
-    /// corrected phi.
-    template <int dim>
-    std::vector<LocalIndex>
-    faces_that_matter(const State<dim> &state)
-    {
-      const Mesh<dim>        &mesh  = *state.mesh;
-      const double            reach = 2 * mesh.surface_size();
-      std::vector<LocalIndex> faces;
-      for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
-        if (std::any_of(mesh.face_nodes[f].begin(), mesh.face_nodes[f].end(), [&](const auto node) {
-              return state.phi.local_element(node) < reach;
-            }))
-          faces.push_back(f);
-      return faces;
-    }
-
     /// Faces that take what is known of them in different ways; those of nodes come first.
     template <int dim>
     class FaceGroups

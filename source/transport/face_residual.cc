@@ -13,6 +13,9 @@ namespace treacle
     /// mesh shatters, with 1/4 it does not.
     constexpr double between_faces = 0.25;
 
+    /// What nodes missed of a face that the mesh before did not have.
+    constexpr double no_face = std::numeric_limits<double>::quiet_NaN();
+
     /// Edge of the smaller leaf beside a face (m).
     template <int dim>
     double
@@ -33,6 +36,21 @@ namespace treacle
   } // namespace
 
   template <int dim>
+  std::vector<LocalIndex>
+  faces_that_matter(const State<dim> &state)
+  {
+    const Mesh<dim>        &mesh  = *state.mesh;
+    const double            reach = 2 * mesh.surface_size();
+    std::vector<LocalIndex> faces;
+    for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
+      if (std::any_of(mesh.face_nodes[f].begin(), mesh.face_nodes[f].end(), [&](const auto node) {
+            return state.phi.local_element(node) < reach;
+          }))
+        faces.push_back(f);
+    return faces;
+  }
+
+  template <int dim>
   Vector
   missed_by_nodes(const State<dim> &state, const LiquidDomain<dim> &domain)
   {
@@ -41,6 +59,22 @@ namespace treacle
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       if (domain.is_liquid_face(f))
         result.local_element(f) = missed(state, f);
+    result.update_ghost_values();
+    return result;
+  }
+
+  template <int dim>
+  Vector
+  missed_by_nodes(const State<dim> &state, const LiquidDomain<dim> &domain, const State<dim> &next)
+  {
+    Vector missed = missed_by_nodes(state, domain);
+    if (next.mesh == state.mesh)
+      return missed;
+    const std::vector<LocalIndex> faces  = faces_that_matter(next);
+    const std::vector<double>     values = values_of_same_faces(domain.mesh, missed, *next.mesh, faces, no_face);
+    Vector                        result = next.mesh->zeros(next.mesh->faces);
+    for (unsigned int i = 0; i < faces.size(); ++i)
+      result.local_element(faces[i]) = values[i];
     result.update_ghost_values();
     return result;
   }
@@ -62,10 +96,9 @@ namespace treacle
         {
           const double speed = mean_at_face(mesh, old.v, f).norm(),
                        moved = difference.dt * speed / (between_faces * size_at_face(mesh, f));
-          const double now   = missed(old, f);
+          const double now   = missed(old, f), before = remembers ? old.before->u->local_element(f) : no_face;
           kept.local_element(f) =
-            std::max(0., 1 - moved) *
-            (remembers ? difference.now * now + difference.before * old.before->u->local_element(f) : now);
+            std::max(0., 1 - moved) * (std::isnan(before) ? now : difference.now * now + difference.before * before);
         }
     if (&other == &mesh)
       {
@@ -74,7 +107,7 @@ namespace treacle
         return;
       }
     kept.update_ghost_values();
-    const std::vector<double> values = values_of_same_faces(mesh, kept, other, faces);
+    const std::vector<double> values = values_of_same_faces(mesh, kept, other, faces, 0);
     for (unsigned int i = 0; i < faces.size(); ++i)
       u.local_element(faces[i]) += values[i];
   }
@@ -95,6 +128,8 @@ namespace treacle
 
 #define INSTANTIATE(dim)                                                             \
   template Vector missed_by_nodes(const State<dim> &, const LiquidDomain<dim> &);    \
+  template Vector missed_by_nodes(const State<dim> &, const LiquidDomain<dim> &, const State<dim> &); \
+  template std::vector<LocalIndex> faces_that_matter(const State<dim> &);            \
   template void   forget_missed(State<dim> &, const LiquidDomain<dim> &, const Vector &); \
   template void   keep_what_nodes_miss(const State<dim> &,                           \
                                      const LiquidDomain<dim> &,                    \

@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/exchange.h>
+#include <treacle/transport/bent_walls.h>
 #include <treacle/transport/octree_growth.h>
 
 namespace treacle
@@ -47,7 +48,7 @@ namespace treacle
           Utilities::MPI::max(leaves.empty() ? 0u : leaves.front().level, comm);
         if (level < prm.air_level)
           return std::vector<bool>(leaves.size(), true);
-        if (level < prm.interior_level || sizing.asks_in_liquid(time))
+        if (level < prm.interior_level || may_be_too_coarse())
           refine_liquid(leaves, level, refine);
         return refine;
       },
@@ -141,11 +142,23 @@ namespace treacle
     const double     reach  = half_diagonal<dim>(edge) + (while_growing ? 0.5 * edge : 0.);
     const Point<dim> x      = centre<dim>(prm, leaf);
     bool             result = sizing.level_in_liquid(x, reach, time) > leaf.level ||
-                  (leaf.level < prm.surface_level &&
-                   (sizing.jumps_in(x, edge, time, while_growing) || sizing.walls_bend_in(x, edge, time, while_growing)));
+                  (leaf.level < prm.surface_level && sizing.jumps_in(x, edge, time, while_growing));
     for (unsigned int child = 0; child < 1u << dim && while_growing && !result; ++child)
       result = sizing.level_in_liquid(vertex_of_cube<dim>(x, 0.5 * edge, child), 0, time) > leaf.level;
     return result;
+  }
+
+  template <int dim>
+  bool
+  OctreeGrowth<dim>::do_walls_bend(const Leaf<dim> &leaf, const bool while_growing) const
+  {
+    return leaf.level < prm.coarsest_at_surface() &&
+           walls_bend_in(scene,
+                         centre<dim>(prm, leaf),
+                         prm.size_of(leaf.level),
+                         prm.size_of(prm.coarsest_at_surface()),
+                         time,
+                         while_growing);
   }
 
   template <int dim>
@@ -153,21 +166,26 @@ namespace treacle
   OctreeGrowth<dim>::are_too_coarse(const std::vector<Leaf<dim>> &leaves,
                                     const bool                    while_growing) const
   {
-    std::vector<bool>      result(leaves.size(), false);
-    std::vector<Leaf<dim>> coarse;
-    std::string            error;
-    keep_error(error, [&] {
-      for (unsigned int i = 0; i < leaves.size(); ++i)
-        if ((result[i] = is_too_coarse(leaves[i], while_growing)))
-          coarse.push_back(leaves[i]);
-    });
-    throw_first(comm, error);
+    const bool                is_asked = sizing.asks_in_liquid(time);
+    std::vector<bool>         result(leaves.size(), false);
+    std::vector<Leaf<dim>>    asked;
+    std::vector<unsigned int> place;
+    for (unsigned int i = 0; i < leaves.size(); ++i)
+      if ((result[i] = do_walls_bend(leaves[i], while_growing)) || is_asked)
+        {
+          asked.push_back(leaves[i]);
+          place.push_back(i);
+        }
     // phi is a distance near the surface only; around it bands make leaves fine
     const double              known = 2 * prm.size_of(prm.coarsest_at_surface());
-    const std::vector<double> phi   = phi_at_centres(coarse);
-    for (unsigned int i = 0, k = 0; i < leaves.size(); ++i)
-      if (result[i])
-        result[i] = phi[k++] < std::min(known, half_diagonal<dim>(prm.size_of(leaves[i].level)));
+    const std::vector<double> phi   = phi_at_centres(asked);
+    std::string               error;
+    keep_error(error, [&] {
+      for (unsigned int k = 0; k < asked.size(); ++k)
+        result[place[k]] = phi[k] < std::min(known, half_diagonal<dim>(prm.size_of(asked[k].level))) &&
+                           (result[place[k]] || is_too_coarse(asked[k], while_growing));
+    });
+    throw_first(comm, error);
     return result;
   }
 
@@ -175,7 +193,7 @@ namespace treacle
   void
   OctreeGrowth<dim>::refine_liquid(const std::vector<Leaf<dim>> &leaves, const unsigned int level, std::vector<bool> &refine) const
   {
-    if (sizing.asks_in_liquid(time))
+    if (may_be_too_coarse())
       {
         const std::vector<bool> asked = are_too_coarse(leaves, true);
         std::transform(refine.begin(), refine.end(), asked.begin(), refine.begin(), std::logical_or<>());

@@ -223,7 +223,7 @@ namespace treacle
     const NextSurface<dim> moved{mesh, surface.facets, next, markers, jumps, inside, size};
     const bool is_fine_enough =
       moved.is_in_leaves_of(octree, scene, time) &&
-      !(sizing.asks_in_liquid(time) && growth.is_any_too_coarse(owned_leaves(octree)));
+      !(growth.may_be_too_coarse() && growth.is_any_too_coarse(owned_leaves(octree)));
     const bool is_time_to_look =
       state.step > 0 && (is_bounded ? state.step % steps_if_bounded == 0 :
                                       state.step % steps_between_looks == 0 &&

@@ -5,7 +5,6 @@
 #include <treacle/fields/carried_in_cell.h>
 #include <treacle/fields/gradients.h>
 #include <treacle/mesh/surface_size.h>
-#include <treacle/scene/bodies.h>
 #include <treacle/transport/bands.h>
 #include <treacle/transport/sizing.h>
 
@@ -16,9 +15,6 @@ namespace treacle
     /// Part of the depth below a surface that the level set shows there at least, if no other
     /// surface is about: a layer is thin where it is thinner than 1 + this part of the depth.
     constexpr double least_depth = 0.6;
-
-    /// Of a leaf of the surface, by how much a wall's distance in the middle of a cube may differ from the mean of its vertices.
-    constexpr double most_bent = 0.25;
 
     /// Of what the surface asks for, what leaves may be that are larger than they were.
     constexpr double too_small = 0.75;
@@ -200,7 +196,7 @@ namespace treacle
   bool
   Sizing<dim>::asks_in_liquid(const double time) const
   {
-    return largest || may_jump(time) || scene.asks_for_levels() || scene.has_solids();
+    return largest || may_jump(time) || scene.asks_for_levels();
   }
 
   template <int dim>
@@ -246,30 +242,6 @@ namespace treacle
           take(vertex_of_cube<dim>(child, 0.5 * edge, of_child));
       }
     return differs || most > least_jump * least;
-  }
-
-  template <int dim>
-  bool
-  Sizing<dim>::walls_bend_in(const Point<dim> &centre, const double edge, const double time, const bool while_growing) const
-  {
-    const double finest  = prm.size_of(prm.coarsest_at_surface());
-    const auto   from    = [&](const Point<dim> &x) { return scene.solid_distance(x, time); };
-    const double in_middle = scene.has_solids() && edge > 1.5 * finest ? from(centre) : far_away;
-    if (std::abs(in_middle) > (while_growing ? 2 : 1) * half_diagonal<dim>(edge))
-      return false;
-    const auto bend_about = [&](const Point<dim> &x, const double distance) {
-      double mean = 0;
-      for (unsigned int vertex = 0; vertex < 1u << dim; ++vertex)
-        mean += from(vertex_of_cube<dim>(x, edge, vertex)) / (1u << dim);
-      return std::abs(distance) < half_diagonal<dim>(edge) && std::abs(mean - distance) > most_bent * finest;
-    };
-    bool result = bend_about(centre, in_middle);
-    for (unsigned int vertex = 0; vertex < 1u << dim && while_growing && !result; ++vertex)
-      {
-        const Point<dim> x = vertex_of_cube<dim>(centre, edge, vertex);
-        result             = bend_about(x, from(x));
-      }
-    return result;
   }
 
   template <int dim>

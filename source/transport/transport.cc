@@ -228,7 +228,7 @@ namespace treacle
   {
     auto next = std::make_unique<State<dim>>(advection.advance(mesh, reach, motion));
     if (remembers(old.time))
-      next->before = advection.velocity_before(*mesh);
+      next->before = advection.velocity_before(*next);
     // the next solves begin with it
     next->v = advection.velocity_at_end(*mesh);
     // a state that is moved may keep its old ghosts

@@ -4,6 +4,7 @@
 // Solids in the liquid, where leaves would be larger than their edges and plates without them. A plate of two leaves of the surface between
 // two pools, one twice as high, wherever it lies in its leaves: it holds. (With leaves of four nobody saw it, and the pools got level.) Syrup
 // in a box that turns, half full: its corners have as much room at any angle, so that volume need not be corrected. (By 0.4 % in each step.)
+// Formulas for leaves and material count in the liquid, and are not asked elsewhere.
 
 #include "../tests.h"
 #include "../run_scene.h"
@@ -56,6 +57,19 @@ turning_box(const MPI_Comm &comm)
         << (sum < 1e-2 ? "yes" : "no") << std::endl;
 }
 
+/// Leaves of the pool and the air are asked for edges of solids, but formulas in the liquid alone: this one is negative in the air.
+void
+formula(const MPI_Comm &comm)
+{
+  const auto rows = run_scene<2>(comm,
+                                 "set End time = 0.001\nset Frame interval = 0.001\nsubsection Mesh\nset Surface level = 4\n"
+                                 "set Size = 0.05 + 0.2*(0.5 - y)\nend\n"
+                                 "subsection Liquid 1\nset Shape = half space\nset Centre = 0, 0.3\nset Normal = 0, 1\nend\n"
+                                 "subsection Solid 1\nset Shape = box\nset Lower corner = 0.4, 0.1\nset Upper corner = 0.5, 0.9\nend\n",
+                                 1);
+  out() << "formula that is negative in the air: steps " << rows.back().at("Time step number") << std::endl;
+}
+
 void
 start(int, char **)
 {
@@ -64,6 +78,7 @@ start(int, char **)
       plate<2>(comm, x);
     plate<3>(comm, 0.42);
     turning_box(comm);
+    formula(comm);
   });
 }
 

@@ -111,6 +111,10 @@ namespace treacle
       return liquid_volume[cell] / mesh.cell_volume[cell];
     }
 
+    /// What the closed parts of faces carry out of a cell (m^dim/s), of solids, emitters and walls.
+    double
+    closed_outflow(const LocalIndex cell) const;
+
     /// Liquid volume over all ranks (m^dim).
     double
     total_volume() const;

@@ -71,7 +71,7 @@ namespace treacle
   {
     double                         dt; ///< since then (s)
     std::optional<NodeVector<dim>> v;  ///< where liquid is advected
-    /// Of the faces: where liquid is advected what v misses of it, u - P v, if it was on this mesh.
+    /// Of the faces: where liquid is advected what v misses of it, u - P v; NaN where the mesh before had no such face.
     std::optional<Vector>          u;
   };
 

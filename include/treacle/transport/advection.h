@@ -62,10 +62,10 @@ namespace treacle
             const double                     reach,
             const SurfaceMotion              motion = SurfaceMotion::carried) const;
 
-    /// The old velocity at the nodes of a mesh, and on the old one what they miss of it, for the next
+    /// The old velocity at the nodes of the next state, and what they miss of it at its faces, for the next
     /// backward difference.
     VelocityBefore<dim>
-    velocity_before(const Mesh<dim> &mesh) const;
+    velocity_before(const State<dim> &next) const;
 
     /// Where points of the surface are after dt, or would be if there were no walls.
     std::vector<Point<dim>>

@@ -10,11 +10,22 @@
 
 namespace treacle
 {
+  /// The owned faces that may carry liquid: a node of them is in it, or will be once markers have
+  /// corrected phi.
+  template <int dim>
+  std::vector<LocalIndex>
+  faces_that_matter(const State<dim> &state);
+
   /// What the nodes do not know of the velocity of faces, u - P v (m/s): of owned liquid faces, others
   /// have 0.
   template <int dim>
   Vector
   missed_by_nodes(const State<dim> &state, const LiquidDomain<dim> &domain);
+
+  /// The same of the faces of the next state that matter: NaN where its mesh is new and this one has no such face. Collective.
+  template <int dim>
+  Vector
+  missed_by_nodes(const State<dim> &state, const LiquidDomain<dim> &domain, const State<dim> &next);
 
   /// Of faces with a node where @p blow is not 0 what nodes miss was before what it is now.
   template <int dim>

@@ -55,6 +55,13 @@ namespace treacle
     bool
     is_full(const Octree<dim> &octree) const;
 
+    /// Can leaves of the interior level be?
+    bool
+    may_be_too_coarse() const
+    {
+      return scene.has_solids() || sizing.asks_in_liquid(time);
+    }
+
     /// Does any of these leaves, of any level, hold liquid, and is too coarse for what is asked for
     /// in it?
     bool
@@ -70,6 +77,10 @@ namespace treacle
     /// it was balanced, and are not asked.
     bool
     is_too_coarse(const Leaf<dim> &leaf, const bool while_growing) const;
+
+    /// Of solids, where it is too large to show it.
+    bool
+    do_walls_bend(const Leaf<dim> &leaf, const bool while_growing) const;
 
     std::vector<bool>
     are_too_coarse(const std::vector<Leaf<dim>> &leaves,

@@ -13,7 +13,7 @@
 namespace treacle
 {
   /// How large leaves may be: along the surface, by its curvature and by how thick liquid and gaps
-  /// are there, and inside the liquid, by walls and solids that ask for a level, edges of solids, and jumps of the
+  /// are there, and inside the liquid, by walls and solids that ask for a level, and jumps of the
   /// material. The formula Mesh/Size counts in both. Refers to the scene.
   template <int dim>
   class Sizing
@@ -44,12 +44,7 @@ namespace treacle
     bool
     jumps_in(const Point<dim> &centre, const double edge, const double time, const bool while_growing) const;
 
-    /// Do leaves of a cube's size fail to show where the walls of solids are in it, as at edges and in plates and gaps thinner than they are?
-    /// While leaves grow, in any such cube half an edge away. Leaves of the surface's coarsest level show what they can.
-    bool
-    walls_bend_in(const Point<dim> &centre, const double edge, const double time, const bool while_growing) const;
-
-    /// Can any of these ask for more than the interior level?
+    /// Can either ask for more than the interior level?
     bool
     asks_in_liquid(const double time) const;
 
