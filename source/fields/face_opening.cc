@@ -76,7 +76,7 @@ namespace treacle
     double       by_solids   = poured < held_part ? scene.solid_velocity(centre, time) * normal : 0.;
     if (is_wall && *std::min_element(v.solid.begin(), v.solid.end()) >= 0)
       by_solids = std::min(0., by_solids); // what lies along a wall may come in, but leaves that behind
-    const double velocity    = by_solids + poured / held_part * (by_emitters - by_solids);
+    const double velocity = by_solids + poured / held_part * (by_emitters - by_solids);
     return {open_fraction, is_wall ? held_part * velocity : velocity}; // the rest of a wall is at rest
   }
 

@@ -219,7 +219,7 @@ namespace treacle
           continue;
         keep_error(error, [&] {
           if (const auto swept = swept_by_meeting_solids(mesh, scene, c, whole, time))
-              closed_excess[c] = *swept - closed_outflow(c);
+            closed_excess[c] = *swept - closed_outflow(c);
         });
       }
     throw_first(mesh.communicator(), error);

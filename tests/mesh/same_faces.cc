@@ -2,7 +2,7 @@
 // Copyright (C) the Treacle authors
 
 // Values of the faces that two meshes have in common, on 1, 2 and 3 ranks, which each has other parts of them: of a mesh with itself
-// all, along normals that may be turned round; of one that is finer elsewhere those whose centre it has too, others 0.
+// all, along normals that may be turned round; of one that is finer elsewhere those that it has too, others are missing: also edges that only cross in their middle.
 
 #include <treacle/mesh/same_faces.h>
 

@@ -16,11 +16,11 @@ namespace treacle
   /// differently: there the nearest solid's velocity does for all. Throws a UserError where a velocity makes no sense.
   template <int dim>
   std::optional<double>
-  swept_by_meeting_solids(const Mesh<dim>          &mesh,
-                          const Scene<dim>         &scene,
-                          const LocalIndex          cell,
-                          const VertexValues<dim>  &values,
-                          const double              time);
+  swept_by_meeting_solids(const Mesh<dim>         &mesh,
+                          const Scene<dim>        &scene,
+                          const LocalIndex         cell,
+                          const VertexValues<dim> &values,
+                          const double             time);
 } // namespace treacle
 
 #endif
