@@ -34,11 +34,11 @@ namespace treacle
     directions()
     {
       std::vector<Tensor<1, dim>> result;
-      for (unsigned int k = 0; k < Utilities::pow(3, dim); ++k)
+      for (unsigned int k = 0; k < Utilities::pow(3u, dim); ++k)
         {
           Tensor<1, dim> direction;
           for (unsigned int d = 0; d < dim; ++d)
-            direction[d] = static_cast<int>(k / Utilities::pow(3, d) % 3) - 1;
+            direction[d] = static_cast<int>(k / Utilities::pow(3u, d) % 3) - 1;
           if (direction.norm_square() > 0)
             result.push_back(direction / direction.norm());
         }
