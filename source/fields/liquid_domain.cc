@@ -278,8 +278,7 @@ namespace treacle
   double
   LiquidDomain<dim>::closed_outflow(const LocalIndex cell) const
   {
-    const auto excess = closed_excess.find(cell);
-    double     flux   = excess == closed_excess.end() ? 0 : excess->second;
+    double flux = excess_of(cell);
     for (const LocalIndex f : mesh.cell_faces[cell])
       flux += (mesh.face_cells[f][0] == cell ? 1 : -1) * mesh.face_area[f] * (1 - open_fraction[f]) * solid_velocity[f];
     return flux;

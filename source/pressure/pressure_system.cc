@@ -115,8 +115,7 @@ namespace treacle
         flux += sign * domain.mesh.face_area[f] *
                 (alpha * u.local_element(f) + (1 - alpha) * domain.solid_velocity[f]);
       }
-    const auto excess = domain.closed_excess.find(c);
-    return excess == domain.closed_excess.end() ? flux : flux + excess->second;
+    return flux + domain.excess_of(c);
   }
 
   template <int dim>

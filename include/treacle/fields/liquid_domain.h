@@ -111,6 +111,14 @@ namespace treacle
       return liquid_volume[cell] / mesh.cell_volume[cell];
     }
 
+    /// closed_excess of any cell.
+    double
+    excess_of(const LocalIndex cell) const
+    {
+      const auto excess = closed_excess.find(cell);
+      return excess == closed_excess.end() ? 0. : excess->second;
+    }
+
     /// What the closed parts of faces carry out of a cell (m^dim/s), of solids, emitters and walls.
     double
     closed_outflow(const LocalIndex cell) const;
