@@ -57,8 +57,8 @@ namespace treacle
   RigidMotion<dim>::RigidMotion(const Parameters &prm, const std::string &where)
     : where(where)
     , centre(prm.centre)
-    , last_time(std::numeric_limits<double>::quiet_NaN())
   {
+    known.fill({std::numeric_limits<double>::quiet_NaN(), {}});
     const bool by_position = !is_zero(prm.displacement) || !is_zero(prm.rotation);
     const bool by_velocity = !is_zero(prm.velocity) || !is_zero(prm.angular_velocity);
     require(!by_position || !by_velocity,
@@ -83,9 +83,8 @@ namespace treacle
     Tensor<1, dim> value;
     for (unsigned int d = 0; d < dim; ++d)
       value[d] = translations[d](centre, t);
-    require(std::isfinite(value.norm_square()),
-            where + (kind == Kind::velocity ? "/Velocity" : "/Displacement") +
-              " is not finite at t = " + std::to_string(t) + " s.");
+    if (!std::isfinite(value.norm_square()))
+      throw_not_finite(kind == Kind::velocity ? "/Velocity" : "/Displacement", t);
     return value;
   }
 
@@ -96,10 +95,16 @@ namespace treacle
     Tensor<1, n_rotations> value;
     for (unsigned int d = 0; d < n_rotations; ++d)
       value[d] = turns[d](centre, t);
-    require(std::isfinite(value.norm_square()),
-            where + (kind == Kind::velocity ? "/Angular velocity" : "/Rotation") +
-              " is not finite at t = " + std::to_string(t) + " s.");
+    if (!std::isfinite(value.norm_square()))
+      throw_not_finite(kind == Kind::velocity ? "/Angular velocity" : "/Rotation", t);
     return value;
+  }
+
+  template <int dim>
+  void
+  RigidMotion<dim>::throw_not_finite(const std::string &formulas, const double t) const
+  {
+    throw UserError(where + formulas + " is not finite at t = " + std::to_string(t) + " s.");
   }
 
   namespace
@@ -150,12 +155,13 @@ namespace treacle
   const Pose<dim> &
   RigidMotion<dim>::at(const double t) const
   {
-    if (t != last_time)
-      {
-        last      = kind == Kind::velocity ? from_velocity(t) : from_position(t);
-        last_time = t;
-      }
-    return last;
+    for (const auto &[time, pose] : known)
+      if (time == t)
+        return pose;
+    auto &oldest    = known[next_to_forget];
+    next_to_forget = (next_to_forget + 1) % known.size();
+    oldest         = {t, kind == Kind::velocity ? from_velocity(t) : from_position(t)};
+    return oldest.second;
   }
 
   template class RigidMotion<2>;

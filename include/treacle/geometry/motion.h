@@ -9,6 +9,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <array>
+
 namespace treacle
 {
   /// The motion of a solid: its position and rotation as formulas, or its velocities,
@@ -65,6 +67,9 @@ namespace treacle
     Tensor<1, n_rotations>
     turn(const double t) const;
 
+    [[noreturn]] void
+    throw_not_finite(const std::string &formulas, const double t) const;
+
     Pose<dim>
     from_position(const double t) const;
 
@@ -75,8 +80,10 @@ namespace treacle
     std::string                  where;
     Point<dim>                   centre;
     std::vector<Expression<dim>> translations, turns;
-    mutable Pose<dim>            last; ///< at time last_time
-    mutable double               last_time;
+    /// The poses asked for last, with their times: a step goes back and forth between its
+    /// beginning and its end.
+    mutable std::array<std::pair<double, Pose<dim>>, 4> known;
+    mutable unsigned int                                next_to_forget = 0;
     mutable VelocityIntegral<dim> integral; ///< of the motion by velocities
   };
 } // namespace treacle
