@@ -102,7 +102,7 @@ namespace treacle
         if (distance(marker.position) < about * h)
           if (const auto on = marker_on(distance, marker.position, 1e-3 * h); is_behind(marker, on))
             return on_emitter.push_back(on);
-        if (filling.distance(marker.position, v) >= -inside * h)
+        if (filling.distance(marker.position, v) >= -inside * h && !filling.is_skin(marker.position, v))
           kept.push_back(marker);
       };
       const std::vector<double> v = Tracer<dim>(*state.mesh).evaluate(positions(state.markers), fields_of(state.v));

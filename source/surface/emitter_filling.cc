@@ -7,6 +7,8 @@
 
 #include <boost/math/tools/minima.hpp>
 
+#include <limits>
+
 namespace treacle
 {
   namespace
@@ -83,7 +85,10 @@ namespace treacle
     const double length = way.norm();
     if (!(length > 0) || length > farthest_way || to_filled > length + near * h)
       return to_filled;
-    const auto at = [&](const double part) { return filled(x - part * way); };
+    const auto at = [&](const double part) {
+      const Point<dim> from = x - part * way;
+      return std::max(filled(from), depth_beyond(from, scene, time));
+    };
     // a distance is convex along a line if its body is: most points are beside streams that flow on, where it is least at the end, and phi
     // what has come to be there, which may be less
     constexpr double step = 1e-3, flat = 0.05; // of the way; m/m
@@ -105,6 +110,26 @@ namespace treacle
   }
 
   template <int dim>
+  double
+  EmitterFilling<dim>::through_wall(const Point<dim> &x, const Tensor<1, dim> &way) const
+  {
+    const double here = depth_beyond(x, scene, time), there = depth_beyond(x - way, scene, time);
+    if (there <= std::max(here, 0.))
+      return std::numeric_limits<double>::lowest();
+    const double part = here < 0 ? here / (here - there) : 0; // of the way, to the wall
+    return std::min(filled(x - part * way), there);
+  }
+
+  template <int dim>
+  bool
+  EmitterFilling<dim>::is_skin(const Point<dim> &x, const Tensor<1, dim> &v) const
+  {
+    constexpr double beside          = 0.05; // leaves
+    const auto [emitter, to_emitter] = scene.nearest_emitter(x, time);
+    return !is_far(to_emitter, v) && through_wall(x, dt * emitter->velocity(x, time)) > beside * h;
+  }
+
+  template <int dim>
   typename EmitterFilling<dim>::Phi
   EmitterFilling<dim>::phi(const Point<dim> &x, const double old, const Tensor<1, dim> &v) const
   {
@@ -120,10 +145,10 @@ namespace treacle
     constexpr double bulge    = 0.1; // leaves
     const double     before   = std::max(std::min(here > 0 ? old : old + bulge * h, flowed), depth);
     const double     distance = before < 0 || here < -near * h ? here : swept(x, 0.5 * (way + dt * v), here);
-    const bool       is_skin  = depth > 0 && old > -h && filled(nearest_point(scene.box(), from)) > 0;
+    const double remains = old > -h ? std::max(old, through_wall(x, way)) : old;
     // where walls bound both, neither has more
     const double inside = here > 0 && before < 0 ? before : std::max(distance, depth_beyond(x, scene, time));
-    return {std::min(is_skin ? std::max(old, depth) : old, distance), inside, std::max(inside, before)};
+    return {std::min(remains, distance), inside, std::max(inside, before)};
   }
 
 #define INSTANTIATE(dim)                                                                                 \

@@ -34,6 +34,10 @@ namespace treacle
     Phi
     phi(const Point<dim> &x, const double old, const Tensor<1, dim> &v) const;
 
+    /// Would what is there have come through a wall beside emitters?
+    bool
+    is_skin(const Point<dim> &x, const Tensor<1, dim> &v) const;
+
     /// To what emitters fill, or have filled on the way of their liquid in this time: one that is moved askew is more than where it
     /// begins and ends, and its liquid would have notches there, step by step.
     double
@@ -43,6 +47,11 @@ namespace treacle
     /// Is nothing filled so far from an emitter (m), where the liquid has this velocity? It was not twice as fast when it came out.
     bool
     is_far(const double to_emitter, const Tensor<1, dim> &v) const;
+
+    /// phi of what came through a wall, a @p way (m) to a point: that of emitters where it passed, but no more than how far beyond it
+    /// came from. The lowest number where no wall is on the way.
+    double
+    through_wall(const Point<dim> &x, const Tensor<1, dim> &way) const;
 
     /// To emitters alone, where a point is at a distance @p to_emitter from them.
     double

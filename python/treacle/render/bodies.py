@@ -53,10 +53,11 @@ def cube(lower, upper):
 def half_space(solid, run, matrix, shift):
     """Of a half space that has moved, what is in the box."""
     plane, planes, part = vtk.vtkPlane(), vtk.vtkPlaneCollection(), vtk.vtkClipClosedSurface()
+    box = cube(run.lower, run.upper)  # by name: its port does not keep it alive
     plane.SetOrigin(*(matrix @ solid.numbers("Centre") + shift))
     plane.SetNormal(*-(matrix @ solid.numbers("Normal")))
     planes.AddItem(plane)
-    part.SetInputConnection(cube(run.lower, run.upper).GetOutputPort())
+    part.SetInputConnection(box.GetOutputPort())
     part.SetClippingPlanes(planes)
     return part
 
