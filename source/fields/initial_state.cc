@@ -191,7 +191,9 @@ namespace treacle
     const double rounding = scene.rounding();
     if (!scene.has_solids())
       return [f, rounding](const Point<dim> &x) { return snapped(f(x), rounding); };
-    const Distance<dim> solids = [&scene](const Point<dim> &x) { return scene.solid_distance(x, 0); };
+    const Distance<dim> solids = [&scene, h](const Point<dim> &x) {
+      return scene.solid_distance_within(x, AtWall::known * h, 0);
+    };
     return [f, solids, h, rounding](const Point<dim> &x) {
       return snapped(beyond_solids<dim>(f, solids, x, h), rounding);
     };

@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <sstream>
+#include <tuple>
 
 namespace treacle
 {
@@ -147,7 +148,7 @@ namespace treacle
     }
 
     template <int dim>
-    Distance<dim>
+    std::pair<Distance<dim>, DistanceWithin<dim>>
     triangle_mesh(const Parameters<dim>           &p,
                   const std::string               &where,
                   [[maybe_unused]] const MPI_Comm &comm)
@@ -170,7 +171,8 @@ namespace treacle
 
           const auto surface =
             std::make_shared<const TriangleSurface>(p.file, placement, where + "/File", comm);
-          return [surface](const Point<3> &x) { return surface->signed_distance(x); };
+          return {[surface](const Point<3> &x) { return surface->signed_distance(x); },
+                  [surface](const Point<3> &x, const double reach) { return surface->distance_within(x, reach); }};
         }
       else
         return {};
@@ -184,27 +186,27 @@ namespace treacle
     }
 
     template <int dim>
-    Distance<dim>
+    std::pair<Distance<dim>, DistanceWithin<dim>>
     make(const Parameters<dim> &p, const std::string &where, const MPI_Comm &comm)
     {
       switch (p.kind)
         {
           case ShapeKind::sphere:
-            return sphere<dim>(p, where);
+            return {sphere<dim>(p, where), {}};
           case ShapeKind::box:
-            return box<dim>(p, where);
+            return {box<dim>(p, where), {}};
           case ShapeKind::cylinder:
-            return cylinder<dim>(p, where);
+            return {cylinder<dim>(p, where), {}};
           case ShapeKind::capsule:
-            return capsule<dim>(p, where);
+            return {capsule<dim>(p, where), {}};
           case ShapeKind::torus:
-            return torus<dim>(p, where);
+            return {torus<dim>(p, where), {}};
           case ShapeKind::half_space:
-            return half_space<dim>(p, where);
+            return {half_space<dim>(p, where), {}};
           case ShapeKind::triangle_mesh:
             return triangle_mesh<dim>(p, where, comm);
           case ShapeKind::expression:
-            return expression<dim>(p, where);
+            return {expression<dim>(p, where), {}};
         }
       Assert(false, ExcInternalError());
       return {};
@@ -218,8 +220,9 @@ namespace treacle
                     const MPI_Comm    &comm)
     : sign(parameters.invert ? -1 : 1)
     , rounding(rounding)
-    , distance(make<dim>(parameters, where, comm))
-  {}
+  {
+    std::tie(distance, within) = make<dim>(parameters, where, comm);
+  }
 
   template class Shape<2>;
   template class Shape<3>;

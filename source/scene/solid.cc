@@ -67,7 +67,21 @@ namespace treacle
   double
   Solid<dim>::signed_distance(const Point<dim> &x, const double t) const
   {
-    return shape.signed_distance(motion.is_moving() ? motion.at(t).at_start(x) : x);
+    return shape.signed_distance(at_start(x, t));
+  }
+
+  template <int dim>
+  double
+  Solid<dim>::distance_within(const Point<dim> &x, const double reach, const double t) const
+  {
+    return shape.distance_within(at_start(x, t), reach);
+  }
+
+  template <int dim>
+  Point<dim>
+  Solid<dim>::at_start(const Point<dim> &x, const double t) const
+  {
+    return motion.is_moving() ? motion.at(t).at_start(x) : x;
   }
 
   template <int dim>

@@ -41,6 +41,16 @@ namespace treacle
 
   template <int dim>
   double
+  Solids<dim>::solid_distance_within(const Point<dim> &x, const double reach, const double t) const
+  {
+    const auto distance = [&](const Solid<dim> &solid) {
+      return solid.distance_within(x, reach, t);
+    };
+    return solids.empty() ? far_away : nearest(solids, distance).second;
+  }
+
+  template <int dim>
+  double
   Solids<dim>::solid_distance(const unsigned int k, const Point<dim> &x, const double t) const
   {
     return solids[k].signed_distance(x, t);

@@ -25,9 +25,9 @@ namespace treacle
     /// How far a point is beyond the box or in a solid (m), negative in the open. What flows along a wall comes from it, not from beyond.
     template <int dim>
     double
-    depth_beyond(const Point<dim> &x, const Scene<dim> &scene, const double time)
+    depth_beyond(const Point<dim> &x, const Scene<dim> &scene, const double h, const double time)
     {
-      double depth = -scene.solid_distance(x, time);
+      double depth = -scene.solid_distance_within(x, AtWall::known * h, time);
       for (unsigned int d = 0; d < dim; ++d)
         depth = std::max({depth, scene.lower_corner()[d] - x[d], x[d] - scene.upper_corner()[d]});
       return snapped(depth, scene.rounding());
@@ -41,7 +41,9 @@ namespace treacle
     const Distance<dim> emitters = [&scene, time](const Point<dim> &x) { return scene.emitter_distance(x, time); };
     if (!scene.has_solids())
       return emitters;
-    const Distance<dim> solids = [&scene, time](const Point<dim> &x) { return scene.solid_distance(x, time); };
+    const Distance<dim> solids = [&scene, h, time](const Point<dim> &x) {
+      return scene.solid_distance_within(x, AtWall::known * h, time);
+    };
     // outside of emitters only what is in solids changes, near their walls
     return [emitters, solids, h, rounding = scene.rounding()](const Point<dim> &x) {
       const double distance = emitters(x);
@@ -87,7 +89,7 @@ namespace treacle
       return to_filled;
     const auto at = [&](const double part) {
       const Point<dim> from = x - part * way;
-      return std::max(filled(from), depth_beyond(from, scene, time));
+      return std::max(filled(from), depth_beyond(from, scene, h, time));
     };
     // a distance is convex along a line if its body is: most points are beside streams that flow on, where it is least at the end, and phi
     // what has come to be there, which may be less
@@ -113,7 +115,7 @@ namespace treacle
   double
   EmitterFilling<dim>::through_wall(const Point<dim> &x, const Tensor<1, dim> &way) const
   {
-    const double here = depth_beyond(x, scene, time), there = depth_beyond(x - way, scene, time);
+    const double here = depth_beyond(x, scene, h, time), there = depth_beyond(x - way, scene, h, time);
     if (there <= std::max(here, 0.))
       return std::numeric_limits<double>::lowest();
     const double part = here < 0 ? here / (here - there) : 0; // of the way, to the wall
@@ -138,7 +140,7 @@ namespace treacle
       return {std::min(old, to_emitter), to_emitter, to_emitter};
     const Tensor<1, dim> way   = dt * emitter->velocity(x, time);
     const Point<dim>     from  = x - way;
-    const double         depth = depth_beyond(from, scene, time), here = to_filled(x, to_emitter),
+    const double         depth = depth_beyond(from, scene, h, time), here = to_filled(x, to_emitter),
                  flowed = filled_before(from);
     // what flowed on from there has sharp edges here; what phi shows of it bulges beside them for their volume. Outside of emitters it has
     // come to stay
@@ -147,7 +149,7 @@ namespace treacle
     const double     distance = before < 0 || here < -near * h ? here : swept(x, 0.5 * (way + dt * v), here);
     const double remains = old > -h ? std::max(old, through_wall(x, way)) : old;
     // where walls bound both, neither has more
-    const double inside = here > 0 && before < 0 ? before : std::max(distance, depth_beyond(x, scene, time));
+    const double inside = here > 0 && before < 0 ? before : std::max(distance, depth_beyond(x, scene, h, time));
     return {std::min(remains, distance), inside, std::max(inside, before)};
   }
 

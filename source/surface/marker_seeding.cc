@@ -171,8 +171,7 @@ namespace treacle
           seeds.erase(std::remove_if(seeds.begin(),
                                      seeds.end(),
                                      [&](const auto &seed) {
-                                       return scene.solid_distance(seed.position,
-                                                                   state.time) < 0;
+                                       return scene.is_in_solids(seed.position, state.time);
                                      }),
                       seeds.end());
       }

@@ -119,8 +119,7 @@ namespace treacle
         if (side == Side::crossed || !at.is_within(is_of_film ? 1 : 0.75) ||
             (at.is_turned() && !is_of_film) ||
             is_on_box(*state.mesh, at.marker.position) ||
-            (scene.has_solids() &&
-             scene.solid_distance(at.marker.position, state.time) < 0))
+            scene.is_in_solids(at.marker.position, state.time))
           return false;
         kept.push_back(at.marker);
         if (at.is_smooth() && !is_of_film && at.phi.gradient.norm() > 0)

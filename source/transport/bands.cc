@@ -59,12 +59,12 @@ namespace treacle
       if (!scene.has_solids())
         return [](const Point<dim> &) { return true; };
       return [&scene, h, time](const Point<dim> &x) {
-        bool is_open = scene.solid_distance(x, time) >= 0;
+        bool is_open = !scene.is_in_solids(x, time);
         for (unsigned int k = 0; k < 2 * dim && !is_open; ++k)
           {
             Point<dim> aside = x;
             aside[k / 2] += k % 2 == 0 ? 2 * h : -2 * h;
-            is_open = scene.solid_distance(aside, time) >= 0;
+            is_open = !scene.is_in_solids(aside, time);
           }
         return is_open;
       };

@@ -19,7 +19,8 @@ namespace treacle
     constexpr double most_bent = 0.25;
     if (!scene.has_solids())
       return false;
-    const auto   from      = [&](const Point<dim> &x) { return scene.solid_distance(x, time); };
+    const double reach     = 3 * half_diagonal<dim>(edge); // no more is asked for
+    const auto   from      = [&](const Point<dim> &x) { return scene.solid_distance_within(x, reach, time); };
     const double in_middle = from(centre);
     if (std::abs(in_middle) > (while_growing ? 2 : 1) * half_diagonal<dim>(edge))
       return false;

@@ -69,7 +69,7 @@ namespace treacle
               down *= prm.size_of(level) / down.norm();
               for (unsigned int k = 1; k <= n_leaves; ++k)
                 if (const Point<dim> x = point.position + k * down;
-                    box.point_inside(x) && scene.solid_distance(x, 0.) >= 0)
+                    box.point_inside(x) && !scene.is_in_solids(x, 0.))
                   of_level.push_back({x, {}});
             }
       });

@@ -63,7 +63,7 @@ namespace treacle
     {
       const Depth<dim> beyond = depth_beyond(mesh.box(), x);
       // few points are in solids, and the slope costs more than the distance
-      if (!scene.has_solids() || scene.solid_distance(x, time) >= 0)
+      if (!scene.is_in_solids(x, time))
         return beyond;
       const Depth<dim> inside = depth_in_solids(scene, x, time, 0.1 * mesh.finest_size());
       return inside.value > beyond.value ? inside : beyond;

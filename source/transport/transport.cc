@@ -131,7 +131,7 @@ namespace treacle
               centre += x[i] / dim;
             }
           keep_error(error, [&] {
-            if (scene.solid_distance(centre, state.time) >= 0)
+            if (!scene.is_in_solids(centre, state.time))
               flux += area_vector<dim>(x) * v;
           });
         }
@@ -156,7 +156,7 @@ namespace treacle
         return std::abs(scene.solid_distance(from, time) - distance) > 0.1 * h;
       bool is_through = false;
       for (const double part : {0., 0.25, 0.5, 0.75})
-        is_through = is_through || scene.solid_distance(from + part * way, time) < -0.25 * h;
+        is_through = is_through || scene.solid_distance_within(from + part * way, h, time) < -0.25 * h;
       return is_through;
     }
 

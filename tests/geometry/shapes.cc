@@ -146,6 +146,40 @@ check_triangle_mesh()
     show_error<3>("set Shape = triangle mesh\nset File = " + name);
 }
 
+/// What is known within a reach is the distance, and beyond it has its sign and lies between.
+void
+check_reach()
+{
+  std::mt19937                           random(1);
+  std::uniform_real_distribution<double> coordinate(-1, 2);
+  for (const std::string &invert : {"false", "true"})
+    {
+      const Shape<3> cube =
+        make<3>("set Shape = triangle mesh\nset File = cube.off\nset Rotation angle = 30\nset Invert = " + invert);
+      unsigned int n_wrong = 0, n_exact = 0, n_short = 0;
+      Point<3>     x;
+      for (unsigned int k = 0; k < 20000; ++k)
+        {
+          // every second one beside the one before, so that some are in the same cube
+          for (unsigned int d = 0; d < 3; ++d)
+            x[d] = k % 2 == 0 ? coordinate(random) : x[d] + 1e-3 * coordinate(random);
+          const double exact = cube.signed_distance(x);
+          for (const double reach : {1e-12, 0.05, 0.4})
+            {
+              const double within = cube.distance_within(x, reach);
+              const bool   is_near = std::abs(exact) < reach;
+              n_wrong += is_near ? std::abs(within - exact) > 1e-14 :
+                                   within * exact <= 0 || std::abs(within) < reach - 1e-14 ||
+                                     std::abs(within) > std::abs(exact) + 1e-14;
+              n_exact += is_near;
+              n_short += std::abs(within) < 0.99 * std::abs(exact);
+            }
+        }
+      tests::out() << "within a reach: " << n_wrong << " wrong, some exact " << (n_exact > 1000) << ", many shorter "
+                   << (n_short > 10000) << std::endl;
+    }
+}
+
 template <int dim>
 void
 check_errors()
@@ -198,6 +232,7 @@ start(const int, char **)
   show<3>("set Shape = expression\nset Expression = if(x < 0.4, -1, 1) + 0.5", p3);
   show<3>("set Shape = expression\nset Expression = -2.5", p3);
   check_triangle_mesh();
+  check_reach();
   check_errors<3>();
 }
 

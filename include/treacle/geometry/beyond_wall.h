@@ -10,10 +10,10 @@
 
 namespace treacle
 {
-  /// In leaves: what is given as close to a wall as this touches it; how far from walls that is looked at.
+  /// In leaves: what is given as close to a wall as this touches it; how far from walls that is looked at, and their distance known.
   struct AtWall
   {
-    static constexpr double touching = 0.1, reach = 4;
+    static constexpr double touching = 0.1, reach = 4, known = 5;
   };
 
   /// The distance @p f (m) to liquid at @p x as if it went on beyond a wall @p s (m) from there where it touches that: what it has of the
@@ -27,7 +27,7 @@ namespace treacle
               const Tensor<1, dim> &away,
               const double          h);
 
-  /// The same with bodies whose signed distance (m) is @p solids; in them the distance goes on as it is before their wall.
+  /// The same with bodies whose signed distance (m), near their walls, is @p solids; in them the distance goes on as it is before their wall.
   template <int dim>
   double
   beyond_solids(const Distance<dim> &f, const Distance<dim> &solids, const Point<dim> &x, const double h);

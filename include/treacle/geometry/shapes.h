@@ -9,6 +9,10 @@
 
 namespace treacle
 {
+  /// Of a point (m) within a reach (m), see Shape::distance_within().
+  template <int dim>
+  using DistanceWithin = std::function<double(const Point<dim> &, double)>;
+
   /// A body that a subsection of the parameter file describes, known by its
   /// signed distance. Copies share what is large.
   template <int dim>
@@ -33,9 +37,17 @@ namespace treacle
       return snapped(sign * distance(x), rounding);
     }
 
+    /// The same where it is less than @p reach (m); else a number of its sign between the two, which triangles tell sooner.
+    double
+    distance_within(const Point<dim> &x, const double reach) const
+    {
+      return snapped(sign * (within ? within(x, reach) : distance(x)), rounding);
+    }
+
   private:
-    double        sign, rounding; // -, m
-    Distance<dim> distance;
+    double              sign, rounding; // -, m
+    Distance<dim>       distance;
+    DistanceWithin<dim> within; ///< none where that is no cheaper
   };
 } // namespace treacle
 

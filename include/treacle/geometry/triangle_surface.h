@@ -45,6 +45,11 @@ namespace treacle
     double
     signed_distance(const Point<3> &x) const;
 
+    /// The same where it is less than @p reach (m); else a number of its sign between the two. For points that lie close together:
+    /// what is found about cubes of them is kept.
+    double
+    distance_within(const Point<3> &x, const double reach) const;
+
     const BoundingBox<3> &
     bounding_box() const;
 

@@ -123,6 +123,10 @@ namespace treacle
     bool
     is_emitter_nearest(const Point<dim> &x, const double t) const;
 
+    /// Sooner known than a distance.
+    bool
+    is_in_solids(const Point<dim> &x, const double t) const;
+
     /// Are density and viscosity carried along with the liquid?
     bool
     has_advected_material() const;

@@ -43,6 +43,10 @@ namespace treacle
     double
     signed_distance(const Point<dim> &x, const double t) const;
 
+    /// The same where it is less than @p reach (m); else a number of its sign between the two.
+    double
+    distance_within(const Point<dim> &x, const double reach, const double t) const;
+
     /// Of the solid's material at x (m/s).
     Tensor<1, dim>
     velocity(const Point<dim> &x, const double t) const;
@@ -64,6 +68,10 @@ namespace treacle
     check(const double t) const;
 
   private:
+    /// Where the material point that is at @p x at t was at t = 0.
+    Point<dim>
+    at_start(const Point<dim> &x, const double t) const;
+
     const std::string      where;
     const BoundingBox<dim> box;
     const Shape<dim>       shape;

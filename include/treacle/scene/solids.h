@@ -29,10 +29,14 @@ namespace treacle
     double
     solid_distance(const Point<dim> &x, const double t) const;
 
+    /// The same where it is less than @p reach (m); else a number of its sign between the two, sooner.
+    double
+    solid_distance_within(const Point<dim> &x, const double reach, const double t) const;
+
     bool
     has_moving_solids() const;
 
-    /// The same to the solids at rest alone, and to the others.
+    /// The distance to the solids at rest alone, and to the others.
     double
     resting_solid_distance(const Point<dim> &x) const;
     double
