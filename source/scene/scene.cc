@@ -281,13 +281,6 @@ namespace treacle
 
   template <int dim>
   bool
-  Scene<dim>::is_in_solids(const Point<dim> &x, const double t) const
-  {
-    return this->solid_distance_within(x, rounding(), t) < 0;
-  }
-
-  template <int dim>
-  bool
   Scene<dim>::has_advected_material() const
   {
     return transport == MaterialTransport::advected;

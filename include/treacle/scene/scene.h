@@ -125,7 +125,10 @@ namespace treacle
 
     /// Sooner known than a distance.
     bool
-    is_in_solids(const Point<dim> &x, const double t) const;
+    is_in_solids(const Point<dim> &x, const double t) const
+    {
+      return this->solid_distance_within(x, rounding(), t) < 0;
+    }
 
     /// Are density and viscosity carried along with the liquid?
     bool
