@@ -3,6 +3,8 @@
 
 #include <treacle/base/files.h>
 #include <treacle/fields/initial_state.h>
+#include <treacle/fields/thin_solids.h>
+#include <treacle/scene/bodies.h>
 #include <treacle/simulator.h>
 #include <treacle/surface/carried_material.h>
 #include <treacle/surface/redistance.h>
@@ -245,6 +247,13 @@ namespace treacle
     repeated(info.repetitions.energy,
              "the liquid gained more energy than forces can have given it; left of it: " +
                digits(100 * info.excess) + " %");
+    warn();
+  }
+
+  template <int dim>
+  void
+  Simulator<dim>::warn()
+  {
     const double drift = statistics->last("Volume drift");
     if (std::abs(drift) > warned_drift + 0.05)
       {
@@ -252,8 +261,13 @@ namespace treacle
         log->line("warning: the liquid has " + digits(100 * std::abs(drift)) + " % " +
                   (drift < 0 ? "less" : "more") +
                   " volume than it should. Parts thinner than a leaf are lost, which a larger Surface "
-                  "level holds; an emitter may pour into a box that is full.");
+                  "level holds; an emitter may pour into a box that is full, or solids leave no room.");
       }
+    if (scene.has_solids() && (info.rebuilt || liquid.state->step == 1))
+      for (const unsigned int k : thin_solids(*liquid.domain, liquid.state->time))
+        if (const std::string name = numbered("Solid", k); warned_thin.insert(k).second)
+          log->line("warning: " + name + " is thinner than a cell beside liquid, which leaks through it there. Make it thicker, or " +
+                    (imported ? "the cells of Mesh/File smaller." : "raise " + name + "/Level or Mesh/Surface level."));
     if (info.dynamics.fallbacks > 0)
       log->line("warning: the coupled solve stagnated; this step was split with first projection. A "
                 "smaller Maximum time step, or Linear solvers/Coupled/Maximum iterations, may help.");

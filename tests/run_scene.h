@@ -57,6 +57,22 @@ namespace tests
     return parameters;
   }
 
+  /// Where run_scene() writes.
+  inline std::string
+  run_directory(const MPI_Comm &comm, const int dim)
+  {
+    return "run_" + std::to_string(dim) + "d_" + std::to_string(Utilities::MPI::n_mpi_processes(comm));
+  }
+
+  /// Does the log of the last run_scene() say this?
+  inline bool
+  has_logged(const MPI_Comm &comm, const int dim, const std::string &words)
+  {
+    std::ifstream     file(run_directory(comm, dim) + "/log.txt");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    return text.find(words) != std::string::npos;
+  }
+
   /// Run the scene of a parameter text and return its statistics. Collective.
   template <int dim>
   std::vector<Row>
@@ -69,8 +85,7 @@ namespace tests
   {
     typename Simulator<dim>::Parameters parameters =
       parse<dim>(text, n_solids, n_liquids, n_emitters, n_probes);
-    parameters.output_directory =
-      "run_" + std::to_string(dim) + "d_" + std::to_string(Utilities::MPI::n_mpi_processes(comm));
+    parameters.output_directory      = run_directory(comm, dim);
     parameters.mesh_writer.format    = MeshFormat::none;
     parameters.surface_writer.format = SurfaceFormat::none;
     parameters.checkpoint.interval   = 0;

@@ -14,6 +14,8 @@
 #include <treacle/mesh/imported_mesh.h>
 #include <treacle/time_stepping.h>
 
+#include <set>
+
 namespace treacle
 {
   /// The loop over time steps.
@@ -79,6 +81,10 @@ namespace treacle
     void
     report(const StepSize &size);
 
+    /// In the log, of what a user may not have meant.
+    void
+    warn();
+
     const MPI_Comm    comm;
     const std::shared_ptr<const Mesh<dim>> imported; ///< null if the mesh is a lattice
     const Parameters  prm;
@@ -102,6 +108,7 @@ namespace treacle
     unsigned int  frame  = 0; ///< the last one written
     double        volume = 0; ///< that the liquid should have (m^dim)
     double        warned_drift = 0; ///< of the volume, that the log has told
+    std::set<unsigned int> warned_thin; ///< solids, that it has told
     StepInfo<dim> info;
   };
 } // namespace treacle

@@ -2,7 +2,8 @@
 // Copyright (C) the Treacle authors
 
 // Solids in the liquid, where leaves would be larger than their edges and plates without them. A plate of two leaves of the surface between
-// two pools, one twice as high, wherever it lies in its leaves: it holds. (With leaves of four nobody saw it, and the pools got level.) Syrup
+// two pools, one twice as high, wherever it lies in its leaves: it holds. (With leaves of four nobody saw it, and the pools got level.) One
+// of 0.6 leaves may leak: the log says so. Syrup
 // in a box that turns, half full: its corners have as much room at any angle, so that volume need not be corrected. (By 0.4 % in each step.)
 // Formulas for leaves and material count in the liquid, and are not asked elsewhere.
 
@@ -11,9 +12,10 @@
 
 namespace tests::scenes_edges
 {
+/// @p leaves thick.
 template <int dim>
 void
-plate(const MPI_Comm &comm, const double x)
+plate(const MPI_Comm &comm, const double x, const double leaves)
 {
   const auto        digits = [](const double number) { return std::to_string(number); };
   const std::string y = dim == 3 ? ", -1" : "", top = dim == 3 ? ", 2" : "";
@@ -21,7 +23,7 @@ plate(const MPI_Comm &comm, const double x)
     return "set Shape = box\nset Lower corner = " + digits(from) + y + ", -1\nset Upper corner = " + digits(to) + top + ", " + height + "\nend\n";
   };
   const unsigned int level     = dim == 3 ? 4 : 6;
-  const double       thickness = 2. / (1 << level);
+  const double       thickness = leaves / (1 << level);
   const auto         rows =
     run_scene<dim>(comm,
                    "set End time = 0.03\nset Frame interval = 0.03\nset Maximum time step = 0.01\nsubsection Domain\nset Wall condition = free slip\nend\n"
@@ -32,7 +34,12 @@ plate(const MPI_Comm &comm, const double x)
                    1,
                    2);
   const double speed = rows.back().at("Maximum speed (m/s)");
-  out() << dim << "D: plate at " << x << " between pools: " << (speed < 0.01 ? "holds" : "leaks: " + digits(speed)) << std::endl;
+  const bool   is_warned = has_logged(comm, dim, "Solid 1 is thinner than a cell");
+  out() << dim << "D: plate of " << leaves << " leaves at " << x << " between pools: "
+        << (speed < 0.01   ? is_warned ? "warned of, BUT HOLDS" : "holds" :
+            is_warned ? "leaks as the log says" :
+                        "LEAKS: " + digits(speed))
+        << std::endl;
 }
 
 void
@@ -75,8 +82,10 @@ start(int, char **)
 {
   on_1_2_3_ranks([](const MPI_Comm &comm) {
     for (const double x : {0.45, 0.5})
-      plate<2>(comm, x);
-    plate<3>(comm, 0.42);
+      plate<2>(comm, x, 2);
+    plate<2>(comm, 0.45, 0.6);
+    plate<3>(comm, 0.42, 2);
+    plate<3>(comm, 0.42, 0.6);
     turning_box(comm);
     formula(comm);
   });
