@@ -263,11 +263,6 @@ namespace treacle
                   " volume than it should. Parts thinner than a leaf are lost, which a larger Surface "
                   "level holds; an emitter may pour into a box that is full, or solids leave no room.");
       }
-    if (scene.has_solids() && (info.rebuilt || liquid.state->step == 1))
-      for (const unsigned int k : thin_solids(*liquid.domain, liquid.state->time))
-        if (const std::string name = numbered("Solid", k); warned_thin.insert(k).second)
-          log->line("warning: " + name + " is thinner than a cell beside liquid, which leaks through it there. Make it thicker, or " +
-                    (imported ? "the cells of Mesh/File smaller." : "raise " + name + "/Level or Mesh/Surface level."));
     if (info.dynamics.fallbacks > 0)
       log->line("warning: the coupled solve stagnated; this step was split with first projection. A "
                 "smaller Maximum time step, or Linear solvers/Coupled/Maximum iterations, may help.");
@@ -275,9 +270,25 @@ namespace treacle
 
   template <int dim>
   void
+  Simulator<dim>::warn_of_thin_solids()
+  {
+    if (!scene.has_solids())
+      return;
+    const std::string remedy = imported                                                    ? "the cells of Mesh/File smaller." :
+                               prm.mesh.coarsest_at_surface() < prm.mesh.surface_level ? "raise Mesh/Coarsest surface level." :
+                                                                                         "raise Mesh/Surface level.";
+    for (const unsigned int k : thin_solids(*liquid.domain, liquid.state->time))
+      if (warned_thin.insert(k).second)
+        log->line("warning: " + numbered("Solid", k) +
+                  " is thinner than a cell where liquid is on it, which leaks through. Make it thicker, or " + remedy);
+  }
+
+  template <int dim>
+  void
   Simulator<dim>::output_frame()
   {
     const auto section = timing.section("output");
+    warn_of_thin_solids();
     surface_writer.write(*liquid.state, *liquid.domain, prm.output_directory, frame);
     mesh_writer.write(*liquid.state, *liquid.domain, prm.output_directory, frame);
     if (checkpoint.is_due(frame))

@@ -85,6 +85,9 @@ namespace treacle
     void
     warn();
 
+    void
+    warn_of_thin_solids();
+
     const MPI_Comm    comm;
     const std::shared_ptr<const Mesh<dim>> imported; ///< null if the mesh is a lattice
     const Parameters  prm;

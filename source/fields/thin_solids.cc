@@ -3,44 +3,49 @@
 
 #include <treacle/base/exchange.h>
 #include <treacle/fields/thin_solids.h>
+#include <treacle/mesh/surface_size.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace treacle
 {
   namespace
   {
-    /// Does solid k, whose wall is @p from_wall (m) off, end again within h (m) behind it, on the way straight in?
+    /// Is liquid in a cell around a node, and a wall within half of @p h (m)? A formula's slope is the steepest on the way to its neighbours.
     template <int dim>
     bool
-    is_thin(const Scene<dim>  &scene,
-            const unsigned int k,
-            const Point<dim>  &x,
-            const double       from_wall,
-            const double       h,
-            const double       time)
+    is_beside_wall(const LiquidDomain<dim> &domain, const LocalIndex node, const double h)
     {
-      const Distance<dim>  distance = [&](const Point<dim> &y) { return scene.solid_distance(k, y, time); };
-      const Tensor<1, dim> out      = gradient_of<dim>(distance, x, 0.01 * h);
-      return out.norm() > 0 && distance(x - (from_wall + h) / out.norm() * out) > 0;
+      const Mesh<dim> &mesh = domain.mesh;
+      const double     psi  = domain.solid_distance[node];
+      if (psi <= 0)
+        return false;
+      bool   has_liquid = false;
+      double slope      = 0;
+      for (unsigned int i = mesh.node_cell_start[node]; i < mesh.node_cell_start[node + 1]; ++i)
+        {
+          has_liquid = has_liquid || domain.liquid_volume[mesh.node_cells[i]] > 0;
+          for (const LocalIndex other : mesh.cell_nodes[mesh.node_cells[i]])
+            if (other != node)
+              slope = std::max(slope,
+                               std::abs(domain.solid_distance[other] - psi) /
+                                 mesh.node_position[other].distance(mesh.node_position[node]));
+        }
+      return has_liquid && psi < 0.5 * h * slope;
     }
 
-    /// The vertices near walls of cells with liquid, each once, with the cell.
+    /// Is what is h (m) behind the nearest wall, straight in, open again, and in the box?
     template <int dim>
-    std::vector<std::pair<LocalIndex, LocalIndex>>
-    beside_walls(const LiquidDomain<dim> &domain)
+    bool
+    is_open_behind_wall(const Scene<dim> &scene, const Point<dim> &x, const double psi, const double h, const double time)
     {
-      constexpr double                               near = 0.5; // leaves
-      std::vector<std::pair<LocalIndex, LocalIndex>> result;
-      std::vector<char>                              is_known(domain.solid_distance.size(), 0);
-      for (LocalIndex c = 0; c < domain.mesh.n_owned_cells(); ++c)
-        if (domain.liquid_volume[c] > 0)
-          for (const LocalIndex node : domain.mesh.cell_nodes[c])
-            if (const double psi = domain.solid_distance[node];
-                psi > 0 && psi < near * domain.mesh.cell_size[c] && !std::exchange(is_known[node], 1))
-              result.emplace_back(node, c);
-      return result;
+      const Distance<dim> distance = [&](const Point<dim> &y) { return scene.solid_distance_within(y, 4 * h, time); };
+      const Tensor<1, dim> out   = gradient_of<dim>(distance, x, 0.01 * h);
+      const double         slope = out.norm();
+      if (!(slope > 0))
+        return false;
+      const Point<dim> behind = x - (psi / slope + h) / slope * out;
+      return scene.box().point_inside(behind) && distance(behind) > 0;
     }
   } // namespace
 
@@ -50,22 +55,25 @@ namespace treacle
   {
     constexpr double    part  = 0.05; // of the places looked at: tips are always thin
     const Scene<dim>   &scene = domain.scene;
-    std::vector<double> n_thin(scene.n_solids()), n_places(scene.n_solids());
+    const Mesh<dim>    &mesh  = domain.mesh;
+    const unsigned int  n     = scene.n_solids();
+    std::vector<double> places(2 * n); // thin ones, then all
     std::string         error;
     keep_error(error, [&] {
-      for (const auto &[node, c] : beside_walls(domain))
-        {
-          const Point<dim>  &x = domain.mesh.node_position[node];
-          const unsigned int k = scene.nearest_solid(x, time);
-          n_thin[k] += is_thin(scene, k, x, domain.solid_distance[node], std::min(domain.mesh.cell_size[c], domain.mesh.surface_size()), time);
-          n_places[k] += 1;
-        }
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        if (const double h = surface_size_at_node(mesh, node); is_beside_wall(domain, node, h))
+          {
+            const Point<dim>  &x = mesh.node_position[node];
+            const unsigned int k = scene.nearest_solid(x, time);
+            places[k] += is_open_behind_wall(scene, x, domain.solid_distance[node], h, time);
+            places[n + k] += 1;
+          }
     });
-    throw_first(domain.mesh.communicator(), error);
+    throw_first(mesh.communicator(), error);
+    Utilities::MPI::sum(places, mesh.communicator(), places);
     std::vector<unsigned int> result;
-    for (unsigned int k = 0; k < scene.n_solids(); ++k)
-      if (Utilities::MPI::sum(n_thin[k], domain.mesh.communicator()) >
-          part * Utilities::MPI::sum(n_places[k], domain.mesh.communicator()))
+    for (unsigned int k = 0; k < n; ++k)
+      if (places[k] > part * places[n + k])
         result.push_back(k);
     return result;
   }

@@ -46,6 +46,7 @@ namespace treacle
     , material(prm.material, where, &otherwise)
     , start_time(prm.start_time)
     , stop_time(prm.stop_time)
+    , is_formula(prm.shape.kind == ShapeKind::expression)
     , rounding(rounding_in(box))
     , distance(beyond_sides_of(box, Shape<dim>(prm.shape, where, rounding, comm)))
     , velocity_at(prm.velocity, where + "/Velocity")

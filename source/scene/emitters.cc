@@ -13,6 +13,7 @@ namespace treacle
                           const Material<dim>    &otherwise,
                           const BoundingBox<dim> &box,
                           const MPI_Comm         &comm)
+    : near(box)
   {
     for (unsigned int k = 0; k < parameters.size(); ++k)
       list.emplace_back(parameters[k], numbered("Emitter", k), otherwise, box, comm);
@@ -23,10 +24,17 @@ namespace treacle
   Emitters<dim>::nearest_emitter(const Point<dim> &x, const double t) const
   {
     std::pair<const Emitter<dim> *, double> result(nullptr, far_away);
-    for (const Emitter<dim> &emitter : list)
-      if (emitter.is_at_work(t))
-        if (const double distance = emitter.signed_distance(x); distance < result.second)
-          result = {&emitter, distance};
+    const auto                              compare = [&](const Emitter<dim> &emitter) {
+      if (const double distance = emitter.signed_distance(x); distance < result.second)
+        result = {&emitter, distance};
+    };
+    if (list.size() > 2)
+      for (const unsigned int k : near.around(list, x, t))
+        compare(list[k]);
+    else
+      for (const Emitter<dim> &emitter : list)
+        if (emitter.is_at_work(t))
+          compare(emitter);
     return result;
   }
 

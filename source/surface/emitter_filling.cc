@@ -2,7 +2,6 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/geometry/beyond_wall.h>
-#include <treacle/geometry/nearest_point.h>
 #include <treacle/surface/emitter_filling.h>
 
 #include <boost/math/tools/minima.hpp>
@@ -19,6 +18,9 @@ namespace treacle
     /// What moves with the liquid is there but for what the velocity between nodes is off, a part of its way.
     constexpr double narrower = 0.01;
 
+    /// What sticks to a wall is of its skin from so far (leaves) beside an emitter on.
+    constexpr double beside = 0.05;
+
     /// What is as far from a surface (leaves) does not change it.
     constexpr double near = 0.5;
 
@@ -31,6 +33,31 @@ namespace treacle
       for (unsigned int d = 0; d < dim; ++d)
         depth = std::max({depth, scene.lower_corner()[d] - x[d], x[d] - scene.upper_corner()[d]});
       return snapped(depth, scene.rounding());
+    }
+
+    /// Of a @p way (m) back from a point the part that lies before a wall; 1 if none is on it.
+    template <int dim>
+    double
+    part_before_wall(const Point<dim>     &x,
+                     const Tensor<1, dim> &way,
+                     const Scene<dim>     &scene,
+                     const double          h,
+                     const double          time)
+    {
+      double     part = 1;
+      const auto meet = [&](const double here, const double there) { // beyond one wall (m)
+        if (snapped(there, scene.rounding()) > std::max(here, 0.))
+          part = std::min(part, here < 0 ? here / (here - there) : 0);
+      };
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          meet(scene.lower_corner()[d] - x[d], scene.lower_corner()[d] - x[d] + way[d]);
+          meet(x[d] - scene.upper_corner()[d], x[d] - way[d] - scene.upper_corner()[d]);
+        }
+      const auto in_solid = [&](const Point<dim> &y) { return -scene.solid_distance_within(y, AtWall::known * h, time); };
+      if (scene.has_solids())
+        meet(in_solid(x), in_solid(x - way));
+      return part;
     }
   } // namespace
 
@@ -82,21 +109,22 @@ namespace treacle
 
   template <int dim>
   double
-  EmitterFilling<dim>::swept(const Point<dim> &x, const Tensor<1, dim> &way, const double to_filled) const
+  EmitterFilling<dim>::swept(const Point<dim> &x, Tensor<1, dim> way, const double to_filled) const
   {
-    const double length = way.norm();
-    if (!(length > 0) || length > farthest_way || to_filled > length + near * h)
+    if (!(way.norm() <= farthest_way) || to_filled > way.norm() + near * h)
       return to_filled;
-    const auto at = [&](const double part) {
-      const Point<dim> from = x - part * way;
-      return std::max(filled(from), depth_beyond(from, scene, h, time));
-    };
+    const double part   = part_before_wall(x, way, scene, h, time);
+    way *= part;
+    const double length = way.norm();
+    if (!(length > 0))
+      return to_filled;
+    const auto at = [&](const double of_way) { return filled(x - of_way * way); };
     // a distance is convex along a line if its body is: most points are beside streams that flow on, where it is least at the end, and phi
-    // what has come to be there, which may be less
+    // what has come to be there, which may be less; but not where that would have come from beyond a wall
     constexpr double step = 1e-3, flat = 0.05; // of the way; m/m
     const double     at_end = at(1), slope = (at_end - at(1 - step)) / (step * length),
                  lowest = std::max(at_end - slope * length, 0.5 * (to_filled + at_end - length));
-    if (slope < flat || lowest > near * h)
+    if (std::abs(slope) < flat || (part == 1 && slope < 0) || lowest > near * h)
       return to_filled;
     constexpr int        bits = 6; // of the way
     boost::uintmax_t     most = 10;
@@ -115,18 +143,15 @@ namespace treacle
   double
   EmitterFilling<dim>::through_wall(const Point<dim> &x, const Tensor<1, dim> &way) const
   {
-    const double here = depth_beyond(x, scene, h, time), there = depth_beyond(x - way, scene, h, time);
-    if (there <= std::max(here, 0.))
-      return std::numeric_limits<double>::lowest();
-    const double part = here < 0 ? here / (here - there) : 0; // of the way, to the wall
-    return std::min(filled(x - part * way), there);
+    const double part = part_before_wall(x, way, scene, h, time);
+    return part == 1 ? std::numeric_limits<double>::lowest() :
+                       std::min(filled(x - part * way), depth_beyond<dim>(x - way, scene, h, time));
   }
 
   template <int dim>
   bool
   EmitterFilling<dim>::is_skin(const Point<dim> &x, const Tensor<1, dim> &v) const
   {
-    constexpr double beside          = 0.05; // leaves
     const auto [emitter, to_emitter] = scene.nearest_emitter(x, time);
     return !is_far(to_emitter, v) && through_wall(x, dt * emitter->velocity(x, time)) > beside * h;
   }
@@ -147,7 +172,7 @@ namespace treacle
     constexpr double bulge    = 0.1; // leaves
     const double     before   = std::max(std::min(here > 0 ? old : old + bulge * h, flowed), depth);
     const double     distance = before < 0 || here < -near * h ? here : swept(x, 0.5 * (way + dt * v), here);
-    const double remains = old > -h ? std::max(old, through_wall(x, way)) : old;
+    const double remains  = old > -h && depth > 0 ? std::max(old, through_wall(x, way)) : old;
     // where walls bound both, neither has more
     const double inside = here > 0 && before < 0 ? before : std::max(distance, depth_beyond(x, scene, h, time));
     return {std::min(remains, distance), inside, std::max(inside, before)};

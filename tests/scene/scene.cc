@@ -4,7 +4,10 @@
 // What a scene says after its subsections were parsed, and how it refuses.
 
 #include <treacle/base/exceptions.h>
+#include <treacle/scene/bodies.h>
 #include <treacle/scene/scene.h>
+
+#include <random>
 
 #include "../tests.h"
 
@@ -16,11 +19,12 @@ template <int dim>
 Scene<dim>
 make(const std::string &text,
      const unsigned int n_liquids = 1,
-     const unsigned int n_solids  = 0)
+     const unsigned int n_solids  = 0,
+     const unsigned int n_emitters = 0)
 {
   ParameterHandler                prm;
   typename Scene<dim>::Parameters parameters;
-  parameters.add_parameters(prm, n_liquids, n_solids);
+  parameters.add_parameters(prm, n_liquids, n_solids, n_emitters);
   prm.parse_input_from_string(text);
   return Scene<dim>(parameters);
 }
@@ -44,6 +48,40 @@ show_error(const std::string &text, const unsigned int n_liquids = 1)
     {
       tests::out() << error.what() << std::endl;
     }
+}
+
+/// Of many emitters the nearest is found among few; all are asked here.
+template <int dim>
+void
+show_many_emitters()
+{
+  constexpr unsigned int n = 12;
+  std::string            text;
+  for (unsigned int k = 0; k < n; ++k)
+    {
+      const std::string x = std::to_string(0.1 + 0.07 * k), y = std::to_string(0.1 + 0.5 * (k % 3) / 2.);
+      text += "subsection Emitter " + std::to_string(k + 1) + "\n" +
+              (k == 5 ? "set Shape = expression\nset Expression = 3*(abs(x - 0.9) - 0.02)" :
+                        "set Radius = 0.03\nset Centre = " + x + ", " + y + (dim == 3 ? ", " + y : "")) +
+              "\nset Start time = " + std::to_string(k % 4) + "\nset Stop time = " + std::to_string(3 + k % 2) + "\nend\n";
+    }
+  const Scene<dim>                       scene = make<dim>(text, 1, 0, n);
+  std::mt19937                           random(1);
+  std::uniform_real_distribution<double> coordinate(-0.1, 1.1);
+  unsigned int                           n_wrong = 0;
+  for (unsigned int k = 0; k < 20000; ++k)
+    {
+      Point<dim> x;
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d] = coordinate(random);
+      const double time    = k / 2500;
+      double       nearest = far_away;
+      for (const Emitter<dim> &emitter : scene.emitters())
+        if (emitter.is_at_work(time))
+          nearest = std::min(nearest, emitter.signed_distance(x));
+      n_wrong += scene.emitter_distance(x, time) != nearest;
+    }
+  tests::out() << dim << "D, " << n << " emitters: nearest one wrong at " << n_wrong << " of 20000 points" << std::endl;
 }
 
 template <int dim>
@@ -124,6 +162,9 @@ start(const int, char **)
   show_walls<3>("default: no slip; left, right: free slip");
   show_walls<3>("default: free slip ; front,top:no slip;");
   show_walls<3>("back: free slip; free slip; bottom: no slip");
+
+  show_many_emitters<2>();
+  show_many_emitters<3>();
 
   tests::out() << "errors" << std::endl;
   show_error<3>(in("Domain", "Wall condition = sticky"));

@@ -42,6 +42,20 @@ plate(const MPI_Comm &comm, const double x, const double leaves)
         << std::endl;
 }
 
+/// A coat on the floor, and one on a block of another solid, hold no liquid back.
+void
+coats(const MPI_Comm &comm)
+{
+  run_scene<2>(comm,
+               "set End time = 0.001\nset Frame interval = 0.001\nsubsection Mesh\nset Surface level = 5\nend\n"
+               "subsection Liquid 1\nset Shape = half space\nset Centre = 0, 0.4\nset Normal = 0, 1\nend\n"
+               "subsection Solid 1\nset Shape = box\nset Lower corner = -1, -1\nset Upper corner = 2, 0.017\nend\n"
+               "subsection Solid 2\nset Shape = box\nset Lower corner = 0.3, 0.01\nset Upper corner = 0.7, 0.2\nend\n"
+               "subsection Solid 3\nset Shape = box\nset Lower corner = 0.3, 0.2\nset Upper corner = 0.7, 0.217\nend\n",
+               3);
+  out() << "coats of half a leaf: " << (has_logged(comm, 2, "thinner than a cell") ? "WARNED OF" : "no warning") << std::endl;
+}
+
 void
 turning_box(const MPI_Comm &comm)
 {
@@ -86,6 +100,7 @@ start(int, char **)
     plate<2>(comm, 0.45, 0.6);
     plate<3>(comm, 0.42, 2);
     plate<3>(comm, 0.42, 0.6);
+    coats(comm);
     turning_box(comm);
     formula(comm);
   });

@@ -10,8 +10,8 @@
 
 namespace treacle
 {
-  /// Solids (from 0) that end again within an edge of the leaf behind a wall beside which liquid is, in more than some places: liquid
-  /// leaks through them. Collective.
+  /// Solids (from 0) that are open again within a leaf of the surface behind a wall beside liquid, in more than some places: it leaks
+  /// through them. Collective.
   template <int dim>
   std::vector<unsigned int>
   thin_solids(const LiquidDomain<dim> &domain, const double time);

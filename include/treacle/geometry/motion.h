@@ -46,7 +46,7 @@ namespace treacle
       return kind != Kind::at_rest;
     }
 
-    /// Throws a UserError where a formula is not finite.
+    /// Throws a UserError where a formula is not finite. Good until other times are asked for.
     const Pose<dim> &
     at(const double t) const;
 
@@ -80,7 +80,7 @@ namespace treacle
     std::string                  where;
     Point<dim>                   centre;
     std::vector<Expression<dim>> translations, turns;
-    /// The poses asked for last, with their times: a step goes back and forth between its
+    /// The last poses found, with their times: a step goes back and forth between its
     /// beginning and its end.
     mutable std::array<std::pair<double, Pose<dim>>, 4> known;
     mutable unsigned int                                next_to_forget = 0;

@@ -37,7 +37,8 @@ namespace treacle
       return snapped(sign * distance(x), rounding);
     }
 
-    /// The same where it is less than @p reach (m); else a number of its sign between the two, which triangles tell sooner.
+    /// The same where the boundary is nearer than @p reach (m); else a number of its sign, no nearer than that, no farther than it is,
+    /// which triangles tell sooner.
     double
     distance_within(const Point<dim> &x, const double reach) const
     {

@@ -45,8 +45,8 @@ namespace treacle
     double
     signed_distance(const Point<3> &x) const;
 
-    /// The same where it is less than @p reach (m); else a number of its sign between the two. For points that lie close together:
-    /// what is found about cubes of them is kept.
+    /// The same where the surface is nearer than @p reach (m); else a number of its sign, no nearer than that, no farther than it is. For
+    /// points that lie close together: what is found about cubes of them is kept.
     double
     distance_within(const Point<3> &x, const double reach) const;
 

@@ -61,6 +61,7 @@ namespace treacle
     const std::string   where;
     const Material<dim> material;
     const double        start_time, stop_time; // s
+    const bool          is_formula;            ///< whose values need not be distances
 
   private:
     const double                rounding; // m

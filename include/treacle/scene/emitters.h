@@ -4,7 +4,7 @@
 #ifndef treacle_scene_emitters_h
 #define treacle_scene_emitters_h
 
-#include <treacle/scene/emitter.h>
+#include <treacle/scene/near_emitters.h>
 
 namespace treacle
 {
@@ -55,7 +55,8 @@ namespace treacle
     has_switch_at(const double t) const;
 
   private:
-    std::vector<Emitter<dim>> list;
+    std::vector<Emitter<dim>>  list;
+    mutable NearEmitters<dim> near;
   };
 } // namespace treacle
 

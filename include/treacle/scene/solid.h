@@ -43,7 +43,7 @@ namespace treacle
     double
     signed_distance(const Point<dim> &x, const double t) const;
 
-    /// The same where it is less than @p reach (m); else a number of its sign between the two.
+    /// See Shape.
     double
     distance_within(const Point<dim> &x, const double reach, const double t) const;
 

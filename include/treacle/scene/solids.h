@@ -29,7 +29,7 @@ namespace treacle
     double
     solid_distance(const Point<dim> &x, const double t) const;
 
-    /// The same where it is less than @p reach (m); else a number of its sign between the two, sooner.
+    /// The same where a wall is nearer than @p reach (m); else a number of its sign, no nearer than that, no farther than it is, sooner.
     double
     solid_distance_within(const Point<dim> &x, const double reach, const double t) const;
 

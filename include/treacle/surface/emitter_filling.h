@@ -34,7 +34,7 @@ namespace treacle
     Phi
     phi(const Point<dim> &x, const double old, const Tensor<1, dim> &v) const;
 
-    /// Would what is there have come through a wall beside emitters?
+    /// Would what is there, with a velocity @p v (m/s), have come through a wall beside emitters, had it theirs?
     bool
     is_skin(const Point<dim> &x, const Tensor<1, dim> &v) const;
 
@@ -57,9 +57,9 @@ namespace treacle
     double
     to_filled(const Point<dim> &x, const double to_emitter) const;
 
-    /// See distance(); of a @p way (m) in the time.
+    /// See distance(); of a @p way (m) in the time, as far as no wall is on it.
     double
-    swept(const Point<dim> &x, const Tensor<1, dim> &way, const double to_filled) const;
+    swept(const Point<dim> &x, Tensor<1, dim> way, const double to_filled) const;
 
     const Scene<dim> &scene;
     const double      h, time, dt, farthest_way;
