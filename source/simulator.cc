@@ -106,6 +106,7 @@ namespace treacle
     log->line("Treacle " TREACLE_VERSION ", " + std::to_string(dim) + "D, " +
               std::to_string(Utilities::MPI::n_mpi_processes(comm)) + " ranks, " +
               std::to_string(liquid.state->mesh->cells->size()) + " cells, " + description_of_mesh());
+    warn_of_thin_solids();
 
     while (frame < time_step.n_frames())
       {
@@ -120,6 +121,7 @@ namespace treacle
           {
             ++frame;
             output_frame();
+            warn_of_thin_solids();
           }
         log->progress(liquid.state->time / prm.transport.time_step.end_time);
       }
@@ -288,7 +290,6 @@ namespace treacle
   Simulator<dim>::output_frame()
   {
     const auto section = timing.section("output");
-    warn_of_thin_solids();
     surface_writer.write(*liquid.state, *liquid.domain, prm.output_directory, frame);
     mesh_writer.write(*liquid.state, *liquid.domain, prm.output_directory, frame);
     if (checkpoint.is_due(frame))

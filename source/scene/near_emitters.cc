@@ -30,23 +30,31 @@ namespace treacle
   NearEmitters<dim>::NearEmitters(const BoundingBox<dim> &box)
     : box(box)
     , edge(edge_of_cubes(box))
-    , time(std::numeric_limits<double>::quiet_NaN())
-  {}
+  {
+    times.fill(std::numeric_limits<double>::quiet_NaN());
+  }
+
+  template <int dim>
+  void
+  NearEmitters<dim>::find_at_work(const std::vector<Emitter<dim>> &emitters, const double t)
+  {
+    std::vector<bool> now;
+    for (const Emitter<dim> &emitter : emitters)
+      now.push_back(emitter.is_at_work(t));
+    times = {{t, times[0]}};
+    if (now == at_work)
+      return;
+    times[1] = t;
+    at_work  = now;
+    of_cube.clear();
+  }
 
   template <int dim>
   const std::vector<unsigned int> &
   NearEmitters<dim>::around(const std::vector<Emitter<dim>> &emitters, const Point<dim> &x, const double t)
   {
-    if (t != time)
-      {
-        std::vector<bool> now;
-        for (const Emitter<dim> &emitter : emitters)
-          now.push_back(emitter.is_at_work(t));
-        if (now != at_work)
-          of_cube.clear();
-        at_work = now;
-        time    = t;
-      }
+    if (std::find(times.begin(), times.end(), t) == times.end())
+      find_at_work(emitters, t);
     // outside of the box emitters are as far as on its sides
     Point<dim>    centre;
     std::uint64_t key = 0;
@@ -77,7 +85,7 @@ namespace treacle
     for (unsigned int k = 0; k < emitters.size(); ++k)
       {
         distances.push_back(emitters[k].signed_distance(centre));
-        if (at_work[k])
+        if (at_work[k] && !emitters[k].is_formula)
           nearest = std::min(nearest, distances[k]);
       }
     for (unsigned int k = 0; k < emitters.size(); ++k)

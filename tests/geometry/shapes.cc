@@ -152,7 +152,7 @@ check_reach()
 {
   std::mt19937                           random(1);
   std::uniform_real_distribution<double> coordinate(-1, 2);
-  for (const std::string &invert : {"false", "true"})
+  for (const std::string invert : {"false", "true"})
     {
       const Shape<3> cube =
         make<3>("set Shape = triangle mesh\nset File = cube.off\nset Rotation angle = 30\nset Invert = " + invert);

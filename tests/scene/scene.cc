@@ -61,7 +61,7 @@ show_many_emitters()
     {
       const std::string x = std::to_string(0.1 + 0.07 * k), y = std::to_string(0.1 + 0.5 * (k % 3) / 2.);
       text += "subsection Emitter " + std::to_string(k + 1) + "\n" +
-              (k == 5 ? "set Shape = expression\nset Expression = 3*(abs(x - 0.9) - 0.02)" :
+              (k == 5 ? "set Shape = expression\nset Expression = 30*(abs(x - 0.9) - 0.02)" :
                         "set Radius = 0.03\nset Centre = " + x + ", " + y + (dim == 3 ? ", " + y : "")) +
               "\nset Start time = " + std::to_string(k % 4) + "\nset Stop time = " + std::to_string(3 + k % 2) + "\nend\n";
     }

@@ -6,12 +6,13 @@
 
 #include <treacle/scene/emitter.h>
 
+#include <array>
 #include <unordered_map>
 
 namespace treacle
 {
   /// Which of many emitters may be the nearest one at work, cube by cube: those as near to its centre as the nearest there, but for its
-  /// extent. (A shower of 25 asked all for each point about each: 22 s a step for 3.)
+  /// extent.
   template <int dim>
   class NearEmitters
   {
@@ -23,13 +24,16 @@ namespace treacle
     around(const std::vector<Emitter<dim>> &emitters, const Point<dim> &x, const double t);
 
   private:
+    void
+    find_at_work(const std::vector<Emitter<dim>> &emitters, const double t);
+
     std::vector<unsigned int>
     candidates(const std::vector<Emitter<dim>> &emitters, const Point<dim> &centre) const;
 
     const BoundingBox<dim> box;
     const double           edge;    ///< of cubes (m)
-    double                 time;    ///< last asked for (s)
-    std::vector<bool>      at_work; ///< then
+    std::array<double, 2>  times;   ///< last asked for (s): a step asks for its middle and its begin in turn
+    std::vector<bool>      at_work; ///< at both
 
     std::unordered_map<std::uint64_t, std::vector<unsigned int>> of_cube;
   };
