@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/exchange.h>
+#include <treacle/geometry/kept_in_cubes.h>
 #include <treacle/geometry/nearest_point.h>
 #include <treacle/geometry/triangle_surface.h>
 
@@ -25,7 +26,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <unordered_map>
 
 namespace treacle
 {
@@ -166,7 +166,7 @@ namespace treacle
       , box(bounds(mesh))
       , tree(faces(mesh).first, faces(mesh).second, mesh)
       , side(tree)
-      , edge(box.get_boundary_points().first.distance(box.get_boundary_points().second) / 128)
+      , cubes(box)
     {
       tree.build();
       tree.accelerate_distance_queries();
@@ -178,44 +178,27 @@ namespace treacle
       return box.point_inside(to_point(p)) && side(p) == CGAL::ON_BOUNDED_SIDE ? -distance : distance;
     }
 
-    /// What is known of a cube.
-    struct Cube
+    struct FromCentre
     {
-      Point<3>        centre;
-      Kernel::Point_3 nearest; ///< of the surface to the centre
+      Kernel::Point_3 nearest; ///< of the surface
       double          distance;
     };
 
-    const Cube &
+    const auto &
     cube_of(const Point<3> &x) const
     {
-      constexpr std::uint64_t bits = 21, middle = 1 << (bits - 1);
-      Point<3>                centre;
-      std::uint64_t           key = 0;
-      for (unsigned int d = 0; d < 3; ++d)
-        {
-          const double index = std::floor((x[d] - box.lower_bound(d)) / edge);
-          centre[d]          = box.lower_bound(d) + (index + 0.5) * edge;
-          key                = key << bits | static_cast<std::uint64_t>(index + middle);
-        }
-      if (const auto known = cubes.find(key); known != cubes.end() && known->second.centre == centre)
-        return known->second;
-      constexpr unsigned int most = 1 << 18; // 20 MiB
-      if (cubes.size() == most)
-        cubes.clear();
-      const Kernel::Point_3 p = to_cgal(centre), nearest = tree.closest_point(p);
-      return cubes
-        .insert_or_assign(key, Cube{centre, nearest, with_sign(centre.distance(to_point(nearest)), p)})
-        .first->second;
+      return cubes.at(x, [&](const Point<3> &centre) -> FromCentre {
+        const Kernel::Point_3 p = to_cgal(centre), nearest = tree.closest_point(p);
+        return {nearest, with_sign(centre.distance(to_point(nearest)), p)};
+      });
     }
 
     const Surface        mesh;
     const BoundingBox<3> box;
     Tree                 tree;
     const Side           side;
-    const double         edge; ///< of cubes (m)
 
-    mutable std::unordered_map<std::uint64_t, Cube> cubes;
+    mutable KeptInCubes<3, FromCentre> cubes;
   };
 
 
@@ -252,13 +235,13 @@ namespace treacle
   {
     if (const double to_box = x.distance(nearest_point(implementation->box, x)); to_box >= reach)
       return to_box;
-    const auto  &cube  = implementation->cube_of(x);
-    const double least = std::abs(cube.distance) - cube.centre.distance(x);
+    const auto &[centre, known] = implementation->cube_of(x);
+    const double least          = std::abs(known.distance) - centre.distance(x);
     if (least >= reach)
-      return std::copysign(least, cube.distance);
+      return std::copysign(least, known.distance);
     const Kernel::Point_3 p        = to_cgal(x);
-    const double          distance = std::sqrt(implementation->tree.squared_distance(p, cube.nearest));
-    return least > 0 ? std::copysign(distance, cube.distance) : implementation->with_sign(distance, p);
+    const double          distance = std::sqrt(implementation->tree.squared_distance(p, known.nearest));
+    return least > 0 ? std::copysign(distance, known.distance) : implementation->with_sign(distance, p);
   }
 
 

@@ -8,28 +8,9 @@
 
 namespace treacle
 {
-  namespace
-  {
-    constexpr unsigned int bits = 20; // of an index of cubes in one direction
-
-    template <int dim>
-    double
-    edge_of_cubes(const BoundingBox<dim> &box)
-    {
-      double shortest = box.side_length(0), longest = shortest;
-      for (unsigned int d = 1; d < dim; ++d)
-        {
-          shortest = std::min(shortest, box.side_length(d));
-          longest  = std::max(longest, box.side_length(d));
-        }
-      return std::max(shortest / 64, longest / ((1 << bits) - 1));
-    }
-  } // namespace
-
   template <int dim>
   NearEmitters<dim>::NearEmitters(const BoundingBox<dim> &box)
-    : box(box)
-    , edge(edge_of_cubes(box))
+    : cubes(box)
   {
     times.fill(std::numeric_limits<double>::quiet_NaN());
   }
@@ -46,7 +27,7 @@ namespace treacle
       return;
     times[1] = t;
     at_work  = now;
-    of_cube.clear();
+    cubes.clear();
   }
 
   template <int dim>
@@ -55,30 +36,15 @@ namespace treacle
   {
     if (std::find(times.begin(), times.end(), t) == times.end())
       find_at_work(emitters, t);
-    // outside of the box emitters are as far as on its sides
-    Point<dim>    centre;
-    std::uint64_t key = 0;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double inside = std::clamp(x[d], box.lower_bound(d), box.upper_bound(d));
-        const double index  = std::floor((inside - box.lower_bound(d)) / edge);
-        centre[d]           = box.lower_bound(d) + (index + 0.5) * edge;
-        key                 = key << bits | static_cast<std::uint64_t>(index);
-      }
-    if (const auto known = of_cube.find(key); known != of_cube.end())
-      return known->second;
-    constexpr unsigned int most = 1 << 18; // 25 MiB
-    if (of_cube.size() == most)
-      of_cube.clear();
-    return of_cube.emplace(key, candidates(emitters, centre)).first->second;
+    return cubes.at(x, [&](const Point<dim> &centre) { return candidates(emitters, centre); }).kept;
   }
 
   template <int dim>
   std::vector<unsigned int>
   NearEmitters<dim>::candidates(const std::vector<Emitter<dim>> &emitters, const Point<dim> &centre) const
   {
-    constexpr double          slack    = 2; // cubes: what goes on beyond a wall is no exact distance
-    const double              diagonal = std::sqrt(double(dim)) * edge;
+    constexpr double          slack    = 3; // cubes: what goes on beyond a wall is no exact distance
+    const double              diagonal = std::sqrt(double(dim)) * cubes.edge;
     double                    nearest  = std::numeric_limits<double>::infinity();
     std::vector<double>       distances;
     std::vector<unsigned int> result;
@@ -89,7 +55,7 @@ namespace treacle
           nearest = std::min(nearest, distances[k]);
       }
     for (unsigned int k = 0; k < emitters.size(); ++k)
-      if (at_work[k] && (emitters[k].is_formula || distances[k] <= nearest + diagonal + slack * edge))
+      if (at_work[k] && (emitters[k].is_formula || distances[k] <= nearest + diagonal + slack * cubes.edge))
         result.push_back(k);
     return result;
   }

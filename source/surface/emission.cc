@@ -88,7 +88,7 @@ namespace treacle
                    const double               time,
                    const double               dt)
     {
-      constexpr double    inside = 0.1, beside = 0.05, about = 0.25, across = 0.02; // leaves
+      constexpr double    inside = 0.1, about = 0.25, across = 0.02; // leaves
       constexpr double    alike = 0.45;                              // cosine of normals
       const Distance<dim> distance  = distance_to_filled(scene, h, time);
       const auto          is_behind = [&](const Marker<dim> &marker, const Marker<dim> &on) {
@@ -103,7 +103,7 @@ namespace treacle
           if (const auto on = marker_on(distance, marker.position, 1e-3 * h); is_behind(marker, on))
             return on_emitter.push_back(on);
         const double to_filled = filling.distance(marker.position, v);
-        if (to_filled >= -inside * h && (to_filled < beside * h || !filling.is_skin(marker.position, v)))
+        if (to_filled >= -inside * h && !filling.is_skin(marker.position, v, to_filled))
           kept.push_back(marker);
       };
       const std::vector<double> v = Tracer<dim>(*state.mesh).evaluate(positions(state.markers), fields_of(state.v));

@@ -18,18 +18,23 @@ namespace treacle
     /// What moves with the liquid is there but for what the velocity between nodes is off, a part of its way.
     constexpr double narrower = 0.01;
 
-    /// What sticks to a wall is of its skin from so far (leaves) beside an emitter on.
-    constexpr double beside = 0.05;
-
     /// What is as far from a surface (leaves) does not change it.
     constexpr double near = 0.5;
+
+    /// To solids (m), as far as these matter.
+    template <int dim>
+    double
+    to_solids(const Point<dim> &x, const Scene<dim> &scene, const double h, const double time)
+    {
+      return scene.solid_distance_within(x, AtWall::known * h, time);
+    }
 
     /// How far a point is beyond the box or in a solid (m), negative in the open. What flows along a wall comes from it, not from beyond.
     template <int dim>
     double
     depth_beyond(const Point<dim> &x, const Scene<dim> &scene, const double h, const double time)
     {
-      double depth = -scene.solid_distance_within(x, AtWall::known * h, time);
+      double depth = -to_solids(x, scene, h, time);
       for (unsigned int d = 0; d < dim; ++d)
         depth = std::max({depth, scene.lower_corner()[d] - x[d], x[d] - scene.upper_corner()[d]});
       return snapped(depth, scene.rounding());
@@ -54,9 +59,7 @@ namespace treacle
           meet(scene.lower_corner()[d] - x[d], scene.lower_corner()[d] - x[d] + way[d]);
           meet(x[d] - scene.upper_corner()[d], x[d] - way[d] - scene.upper_corner()[d]);
         }
-      const auto in_solid = [&](const Point<dim> &y) { return -scene.solid_distance_within(y, AtWall::known * h, time); };
-      if (scene.has_solids())
-        meet(in_solid(x), in_solid(x - way));
+      meet(-to_solids(x, scene, h, time), -to_solids<dim>(x - way, scene, h, time));
       return part;
     }
   } // namespace
@@ -68,9 +71,7 @@ namespace treacle
     const Distance<dim> emitters = [&scene, time](const Point<dim> &x) { return scene.emitter_distance(x, time); };
     if (!scene.has_solids())
       return emitters;
-    const Distance<dim> solids = [&scene, h, time](const Point<dim> &x) {
-      return scene.solid_distance_within(x, AtWall::known * h, time);
-    };
+    const Distance<dim> solids = [&scene, h, time](const Point<dim> &x) { return to_solids(x, scene, h, time); };
     // outside of emitters only what is in solids changes, near their walls
     return [emitters, solids, h, rounding = scene.rounding()](const Point<dim> &x) {
       const double distance = emitters(x);
@@ -141,19 +142,22 @@ namespace treacle
 
   template <int dim>
   double
-  EmitterFilling<dim>::through_wall(const Point<dim> &x, const Tensor<1, dim> &way) const
+  EmitterFilling<dim>::through_wall(const Point<dim> &x, const Tensor<1, dim> &way, const double depth) const
   {
-    const double part = part_before_wall(x, way, scene, h, time);
-    return part == 1 ? std::numeric_limits<double>::lowest() :
-                       std::min(filled(x - part * way), depth_beyond<dim>(x - way, scene, h, time));
+    const double part = depth > 0 ? part_before_wall(x, way, scene, h, time) : 1;
+    return part == 1 ? std::numeric_limits<double>::lowest() : std::min(filled(x - part * way), depth);
   }
 
   template <int dim>
   bool
-  EmitterFilling<dim>::is_skin(const Point<dim> &x, const Tensor<1, dim> &v) const
+  EmitterFilling<dim>::is_skin(const Point<dim> &x, const Tensor<1, dim> &v, const double distance) const
   {
+    constexpr double beside          = 0.05; // leaves
     const auto [emitter, to_emitter] = scene.nearest_emitter(x, time);
-    return !is_far(to_emitter, v) && through_wall(x, dt * emitter->velocity(x, time)) > beside * h;
+    if (distance < beside * h || is_far(to_emitter, v))
+      return false;
+    const Tensor<1, dim> way = dt * emitter->velocity(x, time);
+    return through_wall(x, way, depth_beyond<dim>(x - way, scene, h, time)) > beside * h;
   }
 
   template <int dim>
@@ -172,7 +176,7 @@ namespace treacle
     constexpr double bulge    = 0.1; // leaves
     const double     before   = std::max(std::min(here > 0 ? old : old + bulge * h, flowed), depth);
     const double     distance = before < 0 || here < -near * h ? here : swept(x, 0.5 * (way + dt * v), here);
-    const double remains  = old > -h && depth > 0 ? std::max(old, through_wall(x, way)) : old;
+    const double     remains  = old > -h ? std::max(old, through_wall(x, way, depth)) : old;
     // where walls bound both, neither has more
     const double inside = here > 0 && before < 0 ? before : std::max(distance, depth_beyond(x, scene, h, time));
     return {std::min(remains, distance), inside, std::max(inside, before)};

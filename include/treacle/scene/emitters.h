@@ -55,7 +55,7 @@ namespace treacle
     has_switch_at(const double t) const;
 
   private:
-    std::vector<Emitter<dim>>  list;
+    std::vector<Emitter<dim>> list;
     mutable NearEmitters<dim> near;
   };
 } // namespace treacle

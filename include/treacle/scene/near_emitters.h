@@ -4,10 +4,10 @@
 #ifndef treacle_scene_near_emitters_h
 #define treacle_scene_near_emitters_h
 
+#include <treacle/geometry/kept_in_cubes.h>
 #include <treacle/scene/emitter.h>
 
 #include <array>
-#include <unordered_map>
 
 namespace treacle
 {
@@ -30,12 +30,10 @@ namespace treacle
     std::vector<unsigned int>
     candidates(const std::vector<Emitter<dim>> &emitters, const Point<dim> &centre) const;
 
-    const BoundingBox<dim> box;
-    const double           edge;    ///< of cubes (m)
-    std::array<double, 2>  times;   ///< last asked for (s): a step asks for its middle and its begin in turn
-    std::vector<bool>      at_work; ///< at both
+    std::array<double, 2> times;     ///< last asked for (s): a step asks for its middle and its begin in turn
+    std::vector<bool>     at_work; ///< at both
 
-    std::unordered_map<std::uint64_t, std::vector<unsigned int>> of_cube;
+    KeptInCubes<dim, std::vector<unsigned int>> cubes;
   };
 } // namespace treacle
 

@@ -34,9 +34,10 @@ namespace treacle
     Phi
     phi(const Point<dim> &x, const double old, const Tensor<1, dim> &v) const;
 
-    /// Would what is there, with a velocity @p v (m/s), have come through a wall beside emitters, had it theirs?
+    /// Would what is there, with a velocity @p v (m/s) and at a distance() that is known, have come through a wall beside emitters, had
+    /// it their velocity?
     bool
-    is_skin(const Point<dim> &x, const Tensor<1, dim> &v) const;
+    is_skin(const Point<dim> &x, const Tensor<1, dim> &v, const double distance) const;
 
     /// To what emitters fill, or have filled on the way of their liquid in this time: one that is moved askew is more than where it
     /// begins and ends, and its liquid would have notches there, step by step.
@@ -48,10 +49,10 @@ namespace treacle
     bool
     is_far(const double to_emitter, const Tensor<1, dim> &v) const;
 
-    /// phi of what came through a wall, a @p way (m) to a point: that of emitters where it passed, but no more than how far beyond it
-    /// came from. The lowest number where no wall is on the way.
+    /// phi of what came through a wall, a @p way (m) to a point, from a @p depth (m) beyond: that of emitters where it passed, but no
+    /// more than this. The lowest number where no wall is on the way.
     double
-    through_wall(const Point<dim> &x, const Tensor<1, dim> &way) const;
+    through_wall(const Point<dim> &x, const Tensor<1, dim> &way, const double depth) const;
 
     /// To emitters alone, where a point is at a distance @p to_emitter from them.
     double
