@@ -116,15 +116,19 @@ namespace treacle
     const double                      crossing   = fastest_crossing(*liquid.domain, old->v);
     const EnergyBudget<dim>           budget(*old, *liquid.domain, size.dt);
     double                            past_drift = std::numeric_limits<double>::max(), past_excess = past_drift;
-    for (double dt = size.dt;; dt = 0.5 * info.dt)
+    for (double dt = size.dt;;)
       {
         const double leaves = take(liquid, volume, dt, info);
         info.excess         = budget.excess(
           *liquid.state, *liquid.domain, {info.dt, info.dynamics.power, info.emitted});
         const double drift = std::abs(liquid.domain->total_volume() - volume - old_drift);
         const double way   = info.dt * crossing; // leaves
+        double       shorter = 0.5 * info.dt;
         if (size.dt > size.falling && info.dt > size.falling && leaves > half_a_leaf)
-          ++info.repetitions.motion;
+          {
+            ++info.repetitions.motion;
+            shorter = std::max(shorter, size.falling);
+          }
         else if (drift > largest_drift * volume && way > half_a_leaf &&
                  drift < worth_halving * past_drift)
           ++info.repetitions.volume;
@@ -142,7 +146,8 @@ namespace treacle
         volume = old_volume;
         // what was held may have begun to fall: what it did before tells nothing of how
         if (movement.time_step.is_second_order())
-          find_velocity_before(liquid, 0.5 * info.dt);
+          find_velocity_before(liquid, shorter);
+        dt = shorter;
       }
     require(info.excess <= hopeless_gain,
             "At t = " + digits(liquid.state->time) + " s the liquid has " + digits(100 * info.excess) +

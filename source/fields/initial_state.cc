@@ -147,7 +147,7 @@ namespace treacle
         mesh,
         scene,
         "Liquid " + std::to_string(k + 1),
-        [&](const Point<dim> &x) { return scene.liquid_distance(k, x); },
+        [&](const Point<dim> &x) { return scene.side_of_liquid(k, x); },
         0);
     for (const Emitter<dim> &emitter : scene.emitters())
       {

@@ -212,9 +212,10 @@ namespace treacle
 
   template <int dim>
   double
-  Scene<dim>::liquid_distance(const unsigned int k, const Point<dim> &x) const
+  Scene<dim>::side_of_liquid(const unsigned int k, const Point<dim> &x) const
   {
-    return liquids[k].shape.signed_distance(x);
+    const double least = liquids[k].shape.least_distance(x);
+    return least > 0 ? least : liquids[k].shape.signed_distance(x);
   }
 
   template <int dim>
@@ -228,19 +229,24 @@ namespace treacle
   double
   Scene<dim>::distance_to_liquids(const Point<dim> &x) const
   {
-    double distance = std::numeric_limits<double>::max();
-    for (const Liquid &liquid : liquids)
-      distance = std::min(distance, liquid.shape.signed_distance(x));
-    return distance;
+    return liquids.empty() ? std::numeric_limits<double>::max() : nearest_liquid(x).second;
+  }
+
+  template <int dim>
+  std::pair<const typename Scene<dim>::Liquid *, double>
+  Scene<dim>::nearest_liquid(const Point<dim> &x) const
+  {
+    return nearest(
+      liquids,
+      [&](const Liquid &liquid) { return liquid.shape.signed_distance(x); },
+      [&](const Liquid &liquid) { return liquid.shape.least_distance(x); });
   }
 
   template <int dim>
   const typename Scene<dim>::Liquid &
-  Scene<dim>::nearest_liquid(const Point<dim> &x) const
+  Scene<dim>::liquid_at(const Point<dim> &x) const
   {
-    return liquids.size() == 1 ?
-             liquids.front() :
-             *nearest(liquids, [&](const Liquid &l) { return l.shape.signed_distance(x); }).first;
+    return liquids.size() == 1 ? liquids.front() : *nearest_liquid(x).first;
   }
 
   template <int dim>
@@ -250,7 +256,7 @@ namespace treacle
     const auto [emitter, distance] = this->nearest_emitter(x, 0.);
     if (distance < 0 || liquids.empty())
       return emitter ? emitter->velocity(x, 0.) : Tensor<1, dim>();
-    const Liquid        &liquid = nearest_liquid(x);
+    const Liquid        &liquid = liquid_at(x);
     const Tensor<1, dim> value  = liquid.velocity(x, 0.);
     if (!std::isfinite(value.norm_square()))
       value_error(numbered("Liquid", &liquid - liquids.data()) + "/Velocity",
@@ -268,7 +274,7 @@ namespace treacle
     const auto [emitter, distance] = this->nearest_emitter(x, 0.);
     if (distance < 0 || liquids.empty())
       return emitter ? emitter->material : material;
-    return nearest_liquid(x).material;
+    return liquid_at(x).material;
   }
 
   template <int dim>

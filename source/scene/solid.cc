@@ -78,6 +78,13 @@ namespace treacle
   }
 
   template <int dim>
+  double
+  Solid<dim>::least_distance(const Point<dim> &x, const double t) const
+  {
+    return shape.has_box() ? shape.least_distance(at_start(x, t)) : std::numeric_limits<double>::lowest();
+  }
+
+  template <int dim>
   Point<dim>
   Solid<dim>::at_start(const Point<dim> &x, const double t) const
   {
@@ -107,10 +114,12 @@ namespace treacle
       return;
     // on all ranks, whether or not they have cells: the motion may not be finite
     const Pose<dim> &pose = motion.at(t);
-    require(sample.empty() ||
-              std::any_of(sample.begin(),
-                          sample.end(),
-                          [&](const Point<dim> &x) { return box.point_inside(pose.now(x)); }),
+    const auto is_in_box = [&](const Point<dim> &x) { return box.point_inside(pose.now(x)); };
+    if (sample.empty() || std::any_of(sample.begin(), sample.end(), is_in_box))
+      return;
+    // others than those of the start may be: a half space is a belt
+    const std::vector<Point<dim>> points = grid(box);
+    require(std::any_of(points.begin(), points.end(), [&](const Point<dim> &x) { return signed_distance(x, t) < 0; }),
             where + " has left the box at t = " + digits(t) +
               " s: change its motion, stop the run earlier (End time), or enlarge the box "
               "(Domain/Lower corner and Upper corner).");

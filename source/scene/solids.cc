@@ -33,10 +33,17 @@ namespace treacle
   double
   Solids<dim>::solid_distance(const Point<dim> &x, const double t) const
   {
-    const auto distance = [&](const Solid<dim> &solid) {
-      return solid.signed_distance(x, t);
-    };
-    return solids.empty() ? far_away : nearest(solids, distance).second;
+    return solids.empty() ? far_away : nearest_of(x, t).second;
+  }
+
+  template <int dim>
+  std::pair<const Solid<dim> *, double>
+  Solids<dim>::nearest_of(const Point<dim> &x, const double t) const
+  {
+    return nearest(
+      solids,
+      [&](const Solid<dim> &solid) { return solid.signed_distance(x, t); },
+      [&](const Solid<dim> &solid) { return solid.least_distance(x, t); });
   }
 
   template <int dim>
@@ -71,7 +78,7 @@ namespace treacle
   {
     double distance = far_away;
     for (const Solid<dim> &solid : solids)
-      if (solid.is_moving() == moving)
+      if (solid.is_moving() == moving && solid.least_distance(x, t) < distance)
         distance = std::min(distance, solid.signed_distance(x, t));
     return distance;
   }
@@ -110,10 +117,7 @@ namespace treacle
   {
     if (solids.size() == 1)
       return 0;
-    const auto distance = [&](const Solid<dim> &solid) {
-      return solid.signed_distance(x, t);
-    };
-    return nearest(solids, distance).first - solids.data();
+    return nearest_of(x, t).first - solids.data();
   }
 
   template <int dim>

@@ -7,6 +7,7 @@
 #include <treacle/scene/bodies.h>
 #include <treacle/scene/scene.h>
 
+#include <fstream>
 #include <random>
 
 #include "../tests.h"
@@ -82,6 +83,73 @@ show_many_emitters()
       n_wrong += scene.emitter_distance(x, time) != nearest;
     }
   tests::out() << dim << "D, " << n << " emitters: nearest one wrong at " << n_wrong << " of 20000 points" << std::endl;
+}
+
+/// Of several bodies of triangles those are not asked whose boxes are farther off than the nearest; all are asked here.
+void
+show_many_surfaces(const bool is_last_inverted)
+{
+  std::ofstream("wedge.off") << "OFF\n4 4 0\n0 0 0\n.2 0 0\n0 .3 0\n0 0 .1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  constexpr unsigned int n = 5;
+  std::string            liquids, solids;
+  std::vector<Shape<3>>  shapes;
+  for (unsigned int k = 0; k < n; ++k)
+    {
+      const std::string shape =
+        k == 1 ? "set Radius = 0.1\n" :
+                 "set Shape = triangle mesh\nset File = wedge.off\nset Rotation angle = " + std::to_string(50 * k) +
+                   "\nset Translation = " + std::to_string(0.2 * (k / 2 + 1)) + ", " + std::to_string(0.25 * (k % 2 + 1)) +
+                   ", 0.4\nset Invert = " + (k == 4 && is_last_inverted ? "true" : "false") + "\n";
+      liquids += "subsection Liquid " + std::to_string(k + 1) + "\n" + shape + "set Velocity = " + std::to_string(k) +
+                 "; 0; 0\nend\n";
+      solids += "subsection Solid " + std::to_string(k + 1) + "\n" + shape +
+                (k == 2 ? "set Velocity = 0.1; 0; 0.2\n" : "") + "end\n";
+      ParameterHandler            prm;
+      typename Shape<3>::Parameters parameters;
+      parameters.add_parameters(prm);
+      prm.parse_input_from_string(shape);
+      shapes.emplace_back(parameters, "a body", 1e-12);
+    }
+  const Scene<3>                         scene = make<3>(liquids + solids, n, n);
+  const double                           time  = 0.5;
+  std::mt19937                           random(1);
+  std::uniform_real_distribution<double> coordinate(-0.1, 1.1);
+  unsigned int                           n_wrong = 0, n_inside = 0;
+  for (unsigned int k = 0; k < 5000; ++k)
+    {
+      const Point<3>      x(coordinate(random), coordinate(random), coordinate(random));
+      std::vector<double> distances, from_solids;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          distances.push_back(shapes[i].signed_distance(x));
+          from_solids.push_back(i == 2 ? shapes[i].signed_distance(x - time * Tensor<1, 3>({0.1, 0, 0.2})) : distances[i]);
+          n_wrong += (scene.side_of_liquid(i, x) < 0) != (distances[i] < 0);
+          n_inside += distances[i] < 0;
+        }
+      const auto   least = std::min_element(distances.begin(), distances.end());
+      const double nearest_solid = *std::min_element(from_solids.begin(), from_solids.end());
+      n_wrong += scene.liquid_distance(x) != *least || scene.initial_velocity(x)[0] != least - distances.begin() ||
+                 std::abs(scene.solid_distance(x, time) - nearest_solid) > 1e-12;
+    }
+  tests::out() << n << " surfaces, of 5000 points " << n_inside << " inside: wrong " << n_wrong << std::endl;
+}
+
+/// A solid may go on without end, or be gone.
+template <int dim>
+void
+show_leaving(const std::string &solid)
+{
+  const std::string velocity = dim == 2 ? "1; 0" : "1; 0; 0";
+  const Scene<dim>  scene    = make<dim>(in("Solid 1", "Velocity = " + velocity) + solid, 1, 1);
+  try
+    {
+      scene.check_solids(20);
+      tests::out() << dim << "D: is in the box still" << std::endl;
+    }
+  catch (const UserError &error)
+    {
+      tests::out() << dim << "D: " << error.what() << std::endl;
+    }
 }
 
 template <int dim>
@@ -165,6 +233,15 @@ start(const int, char **)
 
   show_many_emitters<2>();
   show_many_emitters<3>();
+  show_many_surfaces(false);
+  show_many_surfaces(true);
+
+  tests::out() << "solids after 20 m" << std::endl;
+  show_leaving<2>(in("Solid 1", "Shape = half space") + in("Solid 1", "Normal = 0, 1") + in("Solid 1", "Centre = 0, 0.2"));
+  show_leaving<3>(in("Solid 1", "Shape = half space") + in("Solid 1", "Centre = 0, 0, 0.2"));
+  show_leaving<2>(in("Solid 1", "Shape = half space") + in("Solid 1", "Normal = -1, 0"));
+  show_leaving<3>(in("Solid 1", "Radius = 0.2"));
+  show_leaving<2>(in("Solid 1", "Shape = expression") + in("Solid 1", "Expression = y - 0.3 - 0.1*sin(x)"));
 
   tests::out() << "errors" << std::endl;
   show_error<3>(in("Domain", "Wall condition = sticky"));

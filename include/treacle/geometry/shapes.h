@@ -45,6 +45,21 @@ namespace treacle
       return snapped(sign * (within ? within(x, reach) : distance(x)), rounding);
     }
 
+    /// Are they triangles with a known box around them?
+    bool
+    has_box() const
+    {
+      return within && sign > 0;
+    }
+
+    /// No more than the signed distance (m), known at once from that box.
+    double
+    least_distance(const Point<dim> &x) const
+    {
+      const double to_box = has_box() ? within(x, 0) : 0;
+      return to_box > rounding ? to_box : std::numeric_limits<double>::lowest();
+    }
+
   private:
     double              sign, rounding; // -, m
     Distance<dim>       distance;

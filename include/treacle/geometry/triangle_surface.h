@@ -46,7 +46,7 @@ namespace treacle
     signed_distance(const Point<3> &x) const;
 
     /// The same where the surface is nearer than @p reach (m); else a number of its sign, no nearer than that, no farther than it is. For
-    /// points that lie close together: what is found about cubes of them is kept.
+    /// points that lie close together: what is found about cubes of them is kept. With no reach only the box around it is asked.
     double
     distance_within(const Point<3> &x, const double reach) const;
 

@@ -42,18 +42,32 @@ namespace treacle
       }
   }
 
-  /// The entry with the smallest distance (there is at least one), and it.
+  /// The entry with the smallest distance (there is at least one; of equal ones the first), and it. Those that are known to be farther
+  /// than another, by what @p least_of says of them, are not asked.
+  template <typename Body, typename Distance, typename Least>
+  std::pair<const Body *, double>
+  nearest(const std::vector<Body> &bodies, const Distance &distance_of, const Least &least_of)
+  {
+    const Body *begin = bodies.data();
+    if (bodies.size() > 1)
+      for (const Body &body : bodies)
+        if (least_of(body) < least_of(*begin))
+          begin = &body;
+    std::pair<const Body *, double> result(begin, distance_of(*begin));
+    for (const Body &body : bodies)
+      if (&body != begin && least_of(body) <= result.second)
+        if (const double distance = distance_of(body);
+            distance < result.second || (distance == result.second && &body < result.first))
+          result = {&body, distance};
+    return result;
+  }
+
+  /// All are asked.
   template <typename Body, typename Distance>
   std::pair<const Body *, double>
   nearest(const std::vector<Body> &bodies, const Distance &distance_of)
   {
-    std::pair<const Body *, double> result(nullptr,
-                                           std::numeric_limits<double>::infinity());
-    for (const Body &body : bodies)
-      if (const double distance = distance_of(body);
-          result.first == nullptr || distance < result.second)
-        result = {&body, distance};
-    return result;
+    return nearest(bodies, distance_of, [](const Body &) { return std::numeric_limits<double>::lowest(); });
   }
 } // namespace treacle
 

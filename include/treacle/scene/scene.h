@@ -98,9 +98,9 @@ namespace treacle
     unsigned int
     n_liquids() const;
 
-    /// Signed distance to liquid k (from 0) at t = 0, negative inside.
+    /// A number with the sign of the distance to liquid k (from 0) at t = 0, negative inside.
     double
-    liquid_distance(const unsigned int k, const Point<dim> &x) const;
+    side_of_liquid(const unsigned int k, const Point<dim> &x) const;
 
     /// Signed distance to the liquid at t = 0, negative inside: the union of the
     /// liquids and of the emitters that start then. A large number without any.
@@ -159,9 +159,13 @@ namespace treacle
     void
     check_transport(const Parameters &parameters) const;
 
-    /// Of one at least.
-    const Liquid &
+    /// Of one at least, with its distance (m).
+    std::pair<const Liquid *, double>
     nearest_liquid(const Point<dim> &x) const;
+
+    /// The nearest alone.
+    const Liquid &
+    liquid_at(const Point<dim> &x) const;
 
     Point<dim>            lower, upper;
     double                least_distance; // m

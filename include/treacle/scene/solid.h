@@ -47,6 +47,10 @@ namespace treacle
     double
     distance_within(const Point<dim> &x, const double reach, const double t) const;
 
+    /// See Shape.
+    double
+    least_distance(const Point<dim> &x, const double t) const;
+
     /// Of the solid's material at x (m/s).
     Tensor<1, dim>
     velocity(const Point<dim> &x, const double t) const;

@@ -74,6 +74,10 @@ namespace treacle
     check_solids(const double t) const;
 
   private:
+    /// Of one at least, with its distance (m).
+    std::pair<const Solid<dim> *, double>
+    nearest_of(const Point<dim> &x, const double t) const;
+
     /// To those that move, or those that do not.
     double
     distance_to(const bool moving, const Point<dim> &x, const double t) const;
