@@ -77,6 +77,17 @@ namespace treacle
               half.swallowed > worth_halving * whole.swallowed);
     }
 
+    /// Throws a UserError where a step has ended at a time (s) with more energy than halving can have left.
+    template <int dim>
+    void
+    check_excess(const StepInfo<dim> &info, const double time)
+    {
+      require(info.excess <= hopeless_gain,
+              "At t = " + digits(time) + " s the liquid has " + digits(100 * info.excess) +
+                " % more energy than forces can have given it, with a step of " + digits(info.dt) +
+                " s. Lower Maximum time step or Maximum CFL number, or raise Mesh/Surface level.");
+    }
+
     /// The liquid where it is, with another velocity.
     template <int dim>
     Liquid<dim>
@@ -116,19 +127,17 @@ namespace treacle
     const double                      crossing   = fastest_crossing(*liquid.domain, old->v);
     const EnergyBudget<dim>           budget(*old, *liquid.domain, size.dt);
     double                            past_drift = std::numeric_limits<double>::max(), past_excess = past_drift;
-    for (double dt = size.dt;;)
+    for (double dt = size.dt, shorter = dt;; dt = shorter)
       {
         const double leaves = take(liquid, volume, dt, info);
         info.excess         = budget.excess(
           *liquid.state, *liquid.domain, {info.dt, info.dynamics.power, info.emitted});
         const double drift = std::abs(liquid.domain->total_volume() - volume - old_drift);
         const double way   = info.dt * crossing; // leaves
-        double       shorter = 0.5 * info.dt;
-        if (size.dt > size.falling && info.dt > size.falling && leaves > half_a_leaf)
-          {
-            ++info.repetitions.motion;
-            shorter = std::max(shorter, size.falling);
-          }
+        const bool   falls = size.dt > size.falling && info.dt > size.falling && leaves > half_a_leaf;
+        shorter            = std::max(0.5 * info.dt, falls ? size.falling : 0.);
+        if (falls)
+          ++info.repetitions.motion;
         else if (drift > largest_drift * volume && way > half_a_leaf &&
                  drift < worth_halving * past_drift)
           ++info.repetitions.volume;
@@ -147,12 +156,8 @@ namespace treacle
         // what was held may have begun to fall: what it did before tells nothing of how
         if (movement.time_step.is_second_order())
           find_velocity_before(liquid, shorter);
-        dt = shorter;
       }
-    require(info.excess <= hopeless_gain,
-            "At t = " + digits(liquid.state->time) + " s the liquid has " + digits(100 * info.excess) +
-              " % more energy than forces can have given it, with a step of " + digits(info.dt) +
-              " s. Lower Maximum time step or Maximum CFL number, or raise Mesh/Surface level.");
+    check_excess(info, liquid.state->time);
   }
 
   template <int dim>

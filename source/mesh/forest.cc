@@ -37,7 +37,7 @@ namespace treacle
           {
             unsigned int vertex = 0;
             for (int d = dim - 1; d >= 0; --d)
-              vertex = vertex * n_along[d] + order.root(tree)[d] + ((corner >> d) & 1);
+              vertex = vertex * n_along[d] + order.root(tree)[d] + ((corner >> axis_on_curve<dim>(d)) & 1);
             c->tree_to_vertex[n_corners * tree + corner] = vertex;
           }
         for (unsigned int face = 0; face < n_faces; ++face)
@@ -57,15 +57,15 @@ namespace treacle
   Leaf<dim>
   Forest<dim>::leaf_of(const unsigned int tree, const Quadrant &quadrant) const
   {
-    const auto place = [&](const unsigned int d, const typename Types::quadrant_coord x) {
-      const int unit = (1 << Functions::max_level) / root_size;
-      return order.root(tree)[d] * root_size + x / unit;
-    };
-    const unsigned int level = quadrant.level;
-    if constexpr (dim == 2)
-      return {{{place(0, quadrant.x), place(1, quadrant.y)}}, root_size >> level, level};
-    else
-      return {{{place(0, quadrant.x), place(1, quadrant.y), place(2, quadrant.z)}}, root_size >> level, level};
+    const int                                      unit  = (1 << Functions::max_level) / root_size;
+    const unsigned int                             level = quadrant.level;
+    std::array<typename Types::quadrant_coord, dim> place{{quadrant.x, quadrant.y}};
+    if constexpr (dim == 3)
+      place[2] = quadrant.z;
+    Leaf<dim> leaf{{}, root_size >> level, level};
+    for (unsigned int d = 0; d < dim; ++d)
+      leaf.origin[d] = order.root(tree)[d] * root_size + place[axis_on_curve<dim>(d)] / unit;
+    return leaf;
   }
 
   template <int dim>

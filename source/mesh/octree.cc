@@ -8,18 +8,6 @@ namespace treacle
 {
   namespace
   {
-    /// Position along the Morton curve of one tree (x is the lowest bit).
-    template <int dim>
-    std::uint64_t
-    morton(const LatticePoint<dim> &p)
-    {
-      std::uint64_t code = 0;
-      for (unsigned int d = 0; d < dim; ++d)
-        for (std::uint64_t bits = p[d]; bits != 0; bits &= bits - 1)
-          code |= std::uint64_t(1) << (dim * __builtin_ctzll(bits) + d);
-      return code;
-    }
-
     /// Along each axis. Throws a UserError where there are none, or too many.
     template <int dim>
     LatticePoint<dim>

@@ -3,11 +3,21 @@
 
 #include <treacle/mesh/tree_order.h>
 
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/sparsity_tools.h>
+#include <algorithm>
 
 namespace treacle
 {
+  template <int dim>
+  std::uint64_t
+  morton(const LatticePoint<dim> &p)
+  {
+    std::uint64_t code = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (std::uint64_t bits = p[d]; bits != 0; bits &= bits - 1)
+        code |= std::uint64_t(1) << (dim * __builtin_ctzll(bits) + axis_on_curve<dim>(d));
+    return code;
+  }
+
   template <int dim>
   TreeOrder<dim>::TreeOrder(const LatticePoint<dim> &n)
     : n(n)
@@ -15,34 +25,19 @@ namespace treacle
     LatticePoint<dim> last;
     for (unsigned int d = 0; d < dim; ++d)
       last[d] = n[d] - 1;
-    const unsigned int     n_trees = index(last) + 1;
-    DynamicSparsityPattern touching(n_trees, n_trees);
-    const auto             root_at = [&](unsigned int i) {
-      LatticePoint<dim> root;
-      for (unsigned int d = 0; d < dim; i /= n[d++])
-        root[d] = i % n[d];
-      return root;
-    };
-    const unsigned int n_around = dim == 2 ? 9 : 27;
-    for (unsigned int i = 0; i < n_trees; ++i)
-      for (unsigned int k = 0, offset = 0; k < n_around; offset = ++k)
-        {
-          LatticePoint<dim> other     = root_at(i);
-          bool              is_inside = true;
-          for (unsigned int d = 0; d < dim; ++d, offset /= 3)
-            {
-              other[d] += static_cast<int>(offset % 3) - 1;
-              is_inside = is_inside && other[d] >= 0 && other[d] < n[d];
-            }
-          if (is_inside)
-            touching.add(i, index(other));
-        }
-    std::vector<DynamicSparsityPattern::size_type> places(n_trees);
-    SparsityTools::reorder_hierarchical(touching, places);
-    trees.assign(places.begin(), places.end());
-    roots.resize(n_trees);
-    for (unsigned int i = 0; i < n_trees; ++i)
-      roots[trees[i]] = root_at(i);
+    trees.resize(index(last) + 1);
+    for (unsigned int i = 0; i < trees.size(); ++i)
+      {
+        LatticePoint<dim> root;
+        for (unsigned int d = 0, rest = i; d < dim; rest /= n[d++])
+          root[d] = rest % n[d];
+        roots.push_back(root);
+      }
+    std::sort(roots.begin(), roots.end(), [](const LatticePoint<dim> &a, const LatticePoint<dim> &b) {
+      return morton<dim>(a) < morton<dim>(b);
+    });
+    for (unsigned int tree = 0; tree < roots.size(); ++tree)
+      trees[index(roots[tree])] = tree;
   }
 
   template <int dim>
@@ -62,6 +57,10 @@ namespace treacle
     return trees[index(root)];
   }
 
+  template std::uint64_t
+  morton<2>(const LatticePoint<2> &);
+  template std::uint64_t
+  morton<3>(const LatticePoint<3> &);
   template class TreeOrder<2>;
   template class TreeOrder<3>;
 } // namespace treacle

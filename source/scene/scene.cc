@@ -204,13 +204,6 @@ namespace treacle
   }
 
   template <int dim>
-  unsigned int
-  Scene<dim>::n_liquids() const
-  {
-    return liquids.size();
-  }
-
-  template <int dim>
   double
   Scene<dim>::side_of_liquid(const unsigned int k, const Point<dim> &x) const
   {

@@ -10,9 +10,21 @@
 
 namespace treacle
 {
-  /// Root cubes of a brick in the order of p4est's trees: neighbours are near one another in it, and
-  /// so on the space filling curve that goes through all trees. (deal.II numbers the coarse cells of its distributed triangulations
-  /// this way.)
+  /// Which of p4est's axes an axis of the box is. The space filling curve goes up and down fastest, along the last one, which is gravity's
+  /// mostly: the ranks, parts of the curve, stand side by side, and each has its share of the bottom, of the bulk and of the surface.
+  template <int dim>
+  constexpr unsigned int
+  axis_on_curve(const unsigned int d)
+  {
+    return dim - 1 - d;
+  }
+
+  /// The place of a cube along the curve, among cubes of its size.
+  template <int dim>
+  std::uint64_t
+  morton(const LatticePoint<dim> &p);
+
+  /// Root cubes of a brick in the order of p4est's trees: the curve goes on through them.
   template <int dim>
   class TreeOrder
   {

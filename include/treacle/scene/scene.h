@@ -96,7 +96,10 @@ namespace treacle
     asks_for_levels() const;
 
     unsigned int
-    n_liquids() const;
+    n_liquids() const
+    {
+      return liquids.size();
+    }
 
     /// A number with the sign of the distance to liquid k (from 0) at t = 0, negative inside.
     double
