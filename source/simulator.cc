@@ -241,7 +241,7 @@ namespace treacle
     log->line(text);
     const auto repeated = [&](const unsigned int times, const std::string &reason) {
       if (times > 0)
-        log->line("the step was repeated " + std::to_string(times) + " times with half its size, for " + reason);
+        log->line("the step was repeated " + std::to_string(times) + " times, shorter each time, for " + reason);
     };
     repeated(info.repetitions.volume,
              "the surface won or lost more than 1 % of the volume, or went too far into walls; left of it: " + digits(100 * info.drift) + " %");

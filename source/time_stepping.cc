@@ -135,7 +135,7 @@ namespace treacle
         const double drift = std::abs(liquid.domain->total_volume() - volume - old_drift);
         const double way   = info.dt * crossing; // leaves
         const bool   falls = size.dt > size.falling && info.dt > size.falling && leaves > half_a_leaf;
-        shorter            = std::max(0.5 * info.dt, falls ? size.falling : 0.);
+        shorter            = std::max(0.5 * info.dt, falls && size.bound != StepSize::Bound::frame ? size.falling : 0.);
         if (falls)
           ++info.repetitions.motion;
         else if (drift > largest_drift * volume && way > half_a_leaf &&
@@ -150,7 +150,7 @@ namespace treacle
           }
         else
           break;
-        past_drift = drift;
+        past_drift = falls ? std::numeric_limits<double>::max() : drift; // half of it may be to come
         liquid = Liquid<dim>::of(old, scene, liquid_domain);
         volume = old_volume;
         // what was held may have begun to fall: what it did before tells nothing of how

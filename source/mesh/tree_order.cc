@@ -4,6 +4,7 @@
 #include <treacle/mesh/tree_order.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace treacle
 {
@@ -33,8 +34,12 @@ namespace treacle
           root[d] = rest % n[d];
         roots.push_back(root);
       }
-    std::sort(roots.begin(), roots.end(), [](const LatticePoint<dim> &a, const LatticePoint<dim> &b) {
-      return morton<dim>(a) < morton<dim>(b);
+    const auto place = [](LatticePoint<dim> root) {
+      const int height = std::exchange(root[dim - 1], 0);
+      return std::make_pair(morton<dim>(root), height);
+    };
+    std::sort(roots.begin(), roots.end(), [&](const LatticePoint<dim> &a, const LatticePoint<dim> &b) {
+      return place(a) < place(b);
     });
     for (unsigned int tree = 0; tree < roots.size(); ++tree)
       trees[index(roots[tree])] = tree;

@@ -231,7 +231,8 @@ namespace treacle
   {
     return nearest(
       liquids,
-      [&](const Liquid &liquid) { return liquid.shape.signed_distance(x); },
+      // far off where a formula is no number
+      [&](const Liquid &liquid) { return std::fmin(liquid.shape.signed_distance(x), std::numeric_limits<double>::max()); },
       [&](const Liquid &liquid) { return liquid.shape.least_distance(x); });
   }
 

@@ -8,7 +8,7 @@
 
 namespace treacle
 {
-  /// How often a step was taken again with half its size, by reason.
+  /// How often a step was taken again, shorter, by reason.
   struct Repetitions
   {
     unsigned int volume = 0; ///< the surface won or lost too much of it, or went too far into walls

@@ -56,7 +56,8 @@ namespace treacle
     double
     least_distance(const Point<dim> &x) const
     {
-      const double to_box = has_box() ? within(x, 0) : 0;
+      constexpr double exact  = 1 - 1e-12;
+      const double     to_box = has_box() ? exact * within(x, 0) - rounding : 0;
       return to_box > rounding ? to_box : std::numeric_limits<double>::lowest();
     }
 

@@ -11,7 +11,7 @@
 namespace treacle
 {
   /// Which of p4est's axes an axis of the box is. The space filling curve goes up and down fastest, along the last one, which is gravity's
-  /// mostly: the ranks, parts of the curve, stand side by side, and each has its share of the bottom, of the bulk and of the surface.
+  /// mostly: ranks, parts of the curve, stand side by side, and each has its share of the bottom, of the bulk and of the surface.
   template <int dim>
   constexpr unsigned int
   axis_on_curve(const unsigned int d)
@@ -24,7 +24,8 @@ namespace treacle
   std::uint64_t
   morton(const LatticePoint<dim> &p);
 
-  /// Root cubes of a brick in the order of p4est's trees: the curve goes on through them.
+  /// Root cubes of a brick in the order of p4est's trees, column by column. (In a single column ranks stand on top of one another: p4est's
+  /// curve goes through one tree after another.)
   template <int dim>
   class TreeOrder
   {

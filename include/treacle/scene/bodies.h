@@ -6,6 +6,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -42,8 +43,21 @@ namespace treacle
       }
   }
 
-  /// The entry with the smallest distance (there is at least one; of equal ones the first), and it. Those that are known to be farther
-  /// than another, by what @p least_of says of them, are not asked.
+  /// The entry with the smallest distance (there is at least one; of equal ones the first), and it.
+  template <typename Body, typename Distance>
+  std::pair<const Body *, double>
+  nearest(const std::vector<Body> &bodies, const Distance &distance_of)
+  {
+    std::pair<const Body *, double> result(nullptr,
+                                           std::numeric_limits<double>::infinity());
+    for (const Body &body : bodies)
+      if (const double distance = distance_of(body);
+          result.first == nullptr || distance < result.second)
+        result = {&body, distance};
+    return result;
+  }
+
+  /// The same. Those that are known to be farther than another, by what @p least_of says of them, are not asked.
   template <typename Body, typename Distance, typename Least>
   std::pair<const Body *, double>
   nearest(const std::vector<Body> &bodies, const Distance &distance_of, const Least &least_of)
@@ -54,20 +68,14 @@ namespace treacle
         if (least_of(body) < least_of(*begin))
           begin = &body;
     std::pair<const Body *, double> result(begin, distance_of(*begin));
+    if (std::isnan(result.second)) // a formula
+      return nearest(bodies, distance_of);
     for (const Body &body : bodies)
       if (&body != begin && least_of(body) <= result.second)
         if (const double distance = distance_of(body);
             distance < result.second || (distance == result.second && &body < result.first))
           result = {&body, distance};
     return result;
-  }
-
-  /// All are asked.
-  template <typename Body, typename Distance>
-  std::pair<const Body *, double>
-  nearest(const std::vector<Body> &bodies, const Distance &distance_of)
-  {
-    return nearest(bodies, distance_of, [](const Body &) { return std::numeric_limits<double>::lowest(); });
   }
 } // namespace treacle
 
