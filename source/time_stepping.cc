@@ -150,7 +150,7 @@ namespace treacle
           }
         else
           break;
-        past_drift = falls ? std::numeric_limits<double>::max() : drift; // what is not half as long tells nothing of halving
+        past_drift = shorter > 0.5 * info.dt ? std::numeric_limits<double>::max() : drift; // what is not halved does not tell
         liquid = Liquid<dim>::of(old, scene, liquid_domain);
         volume = old_volume;
         // what was held may have begun to fall: what it did before tells nothing of how

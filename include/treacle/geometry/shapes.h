@@ -56,8 +56,8 @@ namespace treacle
     double
     least_distance(const Point<dim> &x) const
     {
-      constexpr double exact  = 1 - 1e-12;
-      const double     to_box = has_box() ? exact * within(x, 0) - rounding : 0;
+      constexpr double nearly = 1 - 1e-12; // rounding must not make it more
+      const double     to_box = has_box() ? nearly * within(x, 0) - rounding : 0;
       return to_box > rounding ? to_box : std::numeric_limits<double>::lowest();
     }
 

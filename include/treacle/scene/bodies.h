@@ -6,6 +6,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -62,11 +63,8 @@ namespace treacle
   std::pair<const Body *, double>
   nearest(const std::vector<Body> &bodies, const Distance &distance_of, const Least &least_of)
   {
-    const Body *begin = bodies.data();
-    if (bodies.size() > 1)
-      for (const Body &body : bodies)
-        if (least_of(body) < least_of(*begin))
-          begin = &body;
+    const Body *begin = &*std::min_element(
+      bodies.begin(), bodies.end(), [&](const Body &a, const Body &b) { return least_of(a) < least_of(b); });
     std::pair<const Body *, double> result(begin, distance_of(*begin));
     if (std::isnan(result.second)) // a formula
       return nearest(bodies, distance_of);
