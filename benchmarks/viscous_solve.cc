@@ -94,7 +94,7 @@ namespace
     state.phi.update_ghost_values();
     redistance(state, 6 * mesh.finest_size());
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
-      state.u.local_element(f) = scene.initial_velocity(mesh.face_centre[f]) * mesh.face_normal[f];
+      state.u.local_element(f) = scene.initial_velocity(mesh.face_centre(f)) * mesh.face_normal[f];
     state.u.update_ghost_values();
     const MeshData<dim>     data(mesh, scene);
     const LiquidDomain<dim> domain(prm.liquid_domain, state, data);

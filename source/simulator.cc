@@ -3,8 +3,6 @@
 
 #include <treacle/base/files.h>
 #include <treacle/fields/initial_state.h>
-#include <treacle/fields/thin_solids.h>
-#include <treacle/scene/bodies.h>
 #include <treacle/simulator.h>
 #include <treacle/surface/carried_material.h>
 #include <treacle/surface/redistance.h>
@@ -106,7 +104,7 @@ namespace treacle
     log->line("Treacle " TREACLE_VERSION ", " + std::to_string(dim) + "D, " +
               std::to_string(Utilities::MPI::n_mpi_processes(comm)) + " ranks, " +
               std::to_string(liquid.state->mesh->cells->size()) + " cells, " + description_of_mesh());
-    warn_of_thin_solids();
+    warnings->of_frame(liquid);
 
     while (frame < time_step.n_frames())
       {
@@ -121,7 +119,7 @@ namespace treacle
           {
             ++frame;
             output_frame();
-            warn_of_thin_solids();
+            warnings->of_frame(liquid);
           }
         log->progress(liquid.state->time / prm.transport.time_step.end_time);
       }
@@ -165,6 +163,11 @@ namespace treacle
   Simulator<dim>::open_output(const bool resume)
   {
     log        = std::make_unique<Log>(comm, prm.output_directory, resume);
+    warnings   = std::make_unique<Warnings>(*log,
+                                          imported ? "make the cells of Mesh/File smaller." :
+                                          prm.mesh.coarsest_at_surface() < prm.mesh.surface_level ?
+                                                     "raise Mesh/Coarsest surface level." :
+                                                     "raise Mesh/Surface level.");
     statistics = std::make_unique<Statistics<dim>>(comm, prm.output_directory, probes);
     if (resume)
       statistics->resume(*liquid.state, *liquid.domain);
@@ -249,40 +252,7 @@ namespace treacle
     repeated(info.repetitions.energy,
              "the liquid gained more energy than forces can have given it; left of it: " +
                digits(100 * info.excess) + " %");
-    warn();
-  }
-
-  template <int dim>
-  void
-  Simulator<dim>::warn()
-  {
-    const double drift = statistics->last("Volume drift");
-    if (std::abs(drift) > warned_drift + 0.05)
-      {
-        warned_drift = std::abs(drift);
-        log->line("warning: the liquid has " + digits(100 * std::abs(drift)) + " % " +
-                  (drift < 0 ? "less" : "more") +
-                  " volume than it should. Parts thinner than a leaf are lost, which a larger Surface "
-                  "level holds; an emitter may pour into a box that is full, or solids leave no room.");
-      }
-    if (info.dynamics.fallbacks > 0)
-      log->line("warning: the coupled solve stagnated; this step was split with first projection. A "
-                "smaller Maximum time step, or Linear solvers/Coupled/Maximum iterations, may help.");
-  }
-
-  template <int dim>
-  void
-  Simulator<dim>::warn_of_thin_solids()
-  {
-    if (!scene.has_solids())
-      return;
-    const std::string remedy = imported                                                    ? "the cells of Mesh/File smaller." :
-                               prm.mesh.coarsest_at_surface() < prm.mesh.surface_level ? "raise Mesh/Coarsest surface level." :
-                                                                                         "raise Mesh/Surface level.";
-    for (const unsigned int k : thin_solids(*liquid.domain, liquid.state->time))
-      if (warned_thin.insert(k).second)
-        log->line("warning: " + numbered("Solid", k) +
-                  " is thinner than a cell where liquid is on it, which leaks through. Make it thicker, or " + remedy);
+    warnings->of_step(info, statistics->last("Volume drift"));
   }
 
   template <int dim>

@@ -103,7 +103,7 @@ namespace tests
       const Mesh<dim> &mesh = *state.mesh;
       state.u.zero_out_ghost_values();
       for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
-        state.u.local_element(f) = velocity(mesh.face_centre[f]) * mesh.face_normal[f];
+        state.u.local_element(f) = velocity(mesh.face_centre(f)) * mesh.face_normal[f];
       state.u.update_ghost_values();
     }
 

@@ -13,8 +13,7 @@
 #include <treacle/io/surface_writer.h>
 #include <treacle/mesh/imported_mesh.h>
 #include <treacle/time_stepping.h>
-
-#include <set>
+#include <treacle/warnings.h>
 
 namespace treacle
 {
@@ -81,13 +80,6 @@ namespace treacle
     void
     report(const StepSize &size);
 
-    /// In the log, of what a user may not have meant.
-    void
-    warn();
-
-    void
-    warn_of_thin_solids();
-
     const MPI_Comm    comm;
     const std::shared_ptr<const Mesh<dim>> imported; ///< null if the mesh is a lattice
     const Parameters  prm;
@@ -105,13 +97,12 @@ namespace treacle
     const Checkpoint<dim>            checkpoint;
     Timing                           timing;
     std::unique_ptr<Log>             log;
+    std::unique_ptr<Warnings>        warnings;
     std::unique_ptr<Statistics<dim>> statistics;
 
     Liquid<dim>   liquid;
     unsigned int  frame  = 0; ///< the last one written
     double        volume = 0; ///< that the liquid should have (m^dim)
-    double        warned_drift = 0; ///< of the volume, that the log has told
-    std::set<unsigned int> warned_thin; ///< solids, that it has told
     StepInfo<dim> info;
   };
 } // namespace treacle

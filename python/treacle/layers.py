@@ -8,7 +8,7 @@ import re
 
 GROUPS = [["base"], ["geometry", "solvers"], ["mesh", "scene"], ["fields"],
           ["surface", "pressure", "viscosity"], ["transport", "dynamics"], ["io"],
-          ["time_stepping"], ["simulator"], ["main"]]
+          ["time_stepping", "warnings"], ["simulator"], ["main"]]
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]((?:treacle/|\.)[^>"]*)[>"]')
 
 

@@ -94,7 +94,7 @@ namespace treacle
             const double u = state.u.local_element(f);
             sums.of_faces.kinetic_energy += 0.5 * mass * u * u;
             add_momentum<dim>(sums.of_faces,
-                              mesh.face_centre[f] - origin,
+                              mesh.face_centre(f) - origin,
                               mass * u * mesh.face_normal[f]);
           }
       for (LocalIndex n = 0; n < mesh.n_owned_nodes(); ++n)

@@ -227,7 +227,7 @@ namespace treacle
       if (domain.is_liquid_face(f))
         keep_error(error, [&] {
           state.u.local_element(f) =
-            domain.scene.initial_velocity(mesh.face_centre[f]) * mesh.face_normal[f];
+            domain.scene.initial_velocity(mesh.face_centre(f)) * mesh.face_normal[f];
         });
     throw_first(mesh.communicator(), error);
     state.u.update_ghost_values();

@@ -164,20 +164,17 @@ namespace treacle
   Mesh<dim>::Maker::fill_face(const LocalIndex f, const LocalIndex c, const unsigned int i)
   {
     std::array<Point<dim>, dim> x;
-    Point<dim>                  centre;
     for (unsigned int k = 0, v = 0; v <= dim; ++v)
       if (v != i)
         {
           mesh.face_nodes[f][k] = mesh.cell_nodes[c][v];
-          x[k]             = mesh.node_position[mesh.cell_nodes[c][v]];
-          centre += x[k++] / dim;
+          x[k++]                = mesh.node_position[mesh.cell_nodes[c][v]];
         }
     Tensor<1, dim> a = area_vector<dim>(x);
     if (a * (x[0] - mesh.node_position[mesh.cell_nodes[c][i]]) < 0)
       a = -a;
     mesh.face_area[f]   = a.norm();
     mesh.face_normal[f] = a / mesh.face_area[f];
-    mesh.face_centre[f] = centre;
   }
 
   template <int dim>
@@ -189,7 +186,6 @@ namespace treacle
     mesh.face_nodes.resize(n);
     mesh.face_area.resize(n);
     mesh.face_normal.resize(n);
-    mesh.face_centre.resize(n);
 
     // mesh.cells in the order of their number: the lower comes first
     std::vector<LocalIndex> order(mesh.cell_nodes.size());
@@ -233,7 +229,7 @@ namespace treacle
     const Point<dim> &o = mesh.cell_dual[mesh.face_cells[f][0]];
     const LocalIndex  j = mesh.face_cells[f][1];
     return j == invalid ?
-             Point<dim>(o + ((mesh.face_centre[f] - o) * mesh.face_normal[f]) * mesh.face_normal[f]) :
+             Point<dim>(o + ((mesh.face_centre(f) - o) * mesh.face_normal[f]) * mesh.face_normal[f]) :
              mesh.cell_dual[j];
   }
 

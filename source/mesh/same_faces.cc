@@ -23,7 +23,7 @@ namespace treacle
       constexpr double    rounding = 1e-8;
       NormalAndValue<dim> result{};
       for (const LocalIndex f : mesh.cell_faces[cell])
-        if (mesh.face_centre[f].distance(centre) < rounding * mesh.cell_size[cell])
+        if (mesh.face_centre(f).distance(centre) < rounding * mesh.cell_size[cell])
           {
             std::copy_n(mesh.face_normal[f].begin_raw(), dim, result.begin());
             result[dim] = values.local_element(f);
@@ -57,7 +57,7 @@ namespace treacle
     LastLocation<dim>         last(mesh);
     for (unsigned int i = 0; i < faces.size(); ++i)
       {
-        const Point<dim> &x    = other.face_centre[faces[i]];
+        const Point<dim> &x    = other.face_centre(faces[i]);
         const LocalIndex  cell = locator.locate(x, last.guess(x)).cell;
         last.set(x, cell);
         if (cell != invalid)

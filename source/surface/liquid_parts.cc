@@ -4,6 +4,7 @@
 #include <treacle/fields/flood.h>
 #include <treacle/fields/liquid_volume.h>
 #include <treacle/fields/moved_points.h>
+#include <treacle/fields/thin_liquid.h>
 #include <treacle/geometry/cut_simplex.h>
 #include <treacle/mesh/last_location.h>
 #include <treacle/mesh/surface_size.h>
@@ -88,19 +89,7 @@ namespace treacle
     Vector is_thick(mesh.nodes);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       is_thick.local_element(node) = phi.local_element(node) < -deep * surface_size_at_node(mesh, node);
-    for (unsigned int layer = 0; layer < thickness; ++layer)
-      {
-        is_thick.update_ghost_values();
-        Vector next = is_thick;
-        next.zero_out_ghost_values();
-        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-          if (phi.local_element(node) < 0)
-            for (const auto &[other, n_cells] : data.neighbours(node))
-              next.local_element(node) = std::max(next.local_element(node), is_thick.local_element(other));
-        is_thick = next;
-      }
-    is_thick.update_ghost_values();
-    return is_thick;
+    return within_layers(data, phi, is_thick, thickness);
   }
 
   template <int dim>

@@ -18,10 +18,16 @@ namespace treacle
                        const std::vector<Point<dim>> &x,
                        Guesses                       &guesses)
     {
+      const auto mean = means_at_nodes(mesh, [&](const LocalIndex c) { return velocity_gradient(mesh, c, velocity); });
       std::vector<NodeVector<dim>> gradients;
       gradients.reserve(dim); // a vector of them that grows would lose their ghosts
-      for (const Vector &component : velocity.component)
-        gradients.push_back(nodal_gradient(mesh, component));
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          gradients.emplace_back(mesh.nodes);
+          for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+            gradients[d].set(node, mean[node][d]);
+          gradients[d].update_ghost_values();
+        }
       std::vector<NodeField<dim>> fields;
       for (const NodeVector<dim> &gradient : gradients)
         for (const Vector &component : gradient.component)

@@ -158,7 +158,7 @@ namespace treacle
           add(holder(held_centre), held_centre, part * impulse);
         if (is_wall && part < 1)
           add(domain.scene.n_solids(),
-              Point<dim>((mesh.face_centre[f] - part * held_centre) / (1 - part)),
+              Point<dim>((mesh.face_centre(f) - part * held_centre) / (1 - part)),
               (1 - part) * impulse);
       }
   }

@@ -96,7 +96,7 @@ namespace tests
         state.v.set(n, velocity(x));
       }
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
-      state.u.local_element(f) = mesh.face_normal[f] * velocity(mesh.face_centre[f]);
+      state.u.local_element(f) = mesh.face_normal[f] * velocity(mesh.face_centre(f));
     for (LocalIndex k = 0; k < mesh.n_owned_cells(); ++k)
       state.pressure.local_element(k) = std::sin(mesh.cell_dual[k][0]);
     state.phi.update_ghost_values();

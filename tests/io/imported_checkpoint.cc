@@ -28,7 +28,7 @@ make_state(const MPI_Comm &comm)
       state.v.set(node, x);
     }
   for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
-    state.u.local_element(f) = mesh.face_normal[f] * mesh.face_centre[f];
+    state.u.local_element(f) = mesh.face_normal[f] * mesh.face_centre(f);
   for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
     state.pressure.local_element(c) = std::sin(mesh.cell_dual[c][0]);
   for (treacle::Vector *v : {&state.phi, &state.u, &state.pressure})

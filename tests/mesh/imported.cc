@@ -33,7 +33,7 @@ check_mesh(const Mesh<dim> &mesh)
       else
         shortest = std::min(shortest, mesh.face_dual_length[f] / mesh.finest_size());
       const Tensor<1, dim> dual_edge =
-        is_wall ? mesh.face_centre[f] - mesh.cell_dual[mesh.face_cells[f][0]] :
+        is_wall ? mesh.face_centre(f) - mesh.cell_dual[mesh.face_cells[f][0]] :
                   mesh.face_dual_length[f] * mesh.face_normal[f];
       identity += mesh.face_area[f] * outer_product(mesh.face_normal[f], dual_edge);
     }

@@ -99,7 +99,7 @@ check(const MPI_Comm &comm, const int seed, const unsigned int level)
                               std::min(mesh.cell_size[cells[0]], mesh.cell_size[cells[1]]));
       // on the box the dual edge ends at the face's centre, beside the foot of o
       const Tensor<1, dim> dual_edge =
-        cells[1] == invalid ? mesh.face_centre[f] - mesh.cell_dual[cells[0]] :
+        cells[1] == invalid ? mesh.face_centre(f) - mesh.cell_dual[cells[0]] :
                               mesh.face_dual_length[f] * mesh.face_normal[f];
       identity += mesh.face_area[f] * outer_product(mesh.face_normal[f], dual_edge);
     }

@@ -34,7 +34,7 @@ template <int dim>
 double
 flux(const Mesh<dim> &mesh, const LocalIndex face)
 {
-  const Point<dim> &x = mesh.face_centre[face];
+  const Point<dim> &x = mesh.face_centre(face);
   Tensor<1, dim>    v = 2 * x;
   for (unsigned int d = 0; d < dim; ++d)
     v[d] += std::sqrt(2. + d) - 0.5 * x[dim - 1 - d];

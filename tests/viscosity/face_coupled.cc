@@ -33,7 +33,7 @@ namespace
     treacle::Vector u = domain.mesh.zeros(domain.mesh.faces);
     for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
       if (domain.is_liquid_face(f))
-        u.local_element(f) = noise(domain.mesh.face_centre[f], frequency);
+        u.local_element(f) = noise(domain.mesh.face_centre(f), frequency);
     return u;
   }
 

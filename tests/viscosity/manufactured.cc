@@ -208,7 +208,7 @@ namespace
       if (domain.is_liquid_face(f))
         of_faces.add(domain.face_mass[f],
                      body.state.u.local_element(f),
-                     velocity(mesh.face_centre[f]) * mesh.face_normal[f]);
+                     velocity(mesh.face_centre(f)) * mesh.face_normal[f]);
     return {of_faces, error_at_nodes(body)};
   }
 

@@ -70,7 +70,7 @@ namespace
     for (LocalIndex f = 0; f < mesh.n_owned_faces(); ++f)
       if (body.domain.is_liquid_face(f))
         {
-          const double u = exact(mesh.face_centre[f] - centre).velocity * mesh.face_normal[f];
+          const double u = exact(mesh.face_centre(f) - centre).velocity * mesh.face_normal[f];
           const double e = body.state.u.local_element(f) - u;
           error += body.domain.face_mass[f] * e * e;
           size += body.domain.face_mass[f] * u * u;

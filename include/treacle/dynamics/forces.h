@@ -23,7 +23,7 @@ namespace treacle
         if (domain.is_liquid_face(f))
           keep_error(error, [&] {
             state.u.local_element(f) +=
-              step * (domain.scene.gravity(mesh.face_centre[f], state.time) * mesh.face_normal[f]);
+              step * (domain.scene.gravity(mesh.face_centre(f), state.time) * mesh.face_normal[f]);
           });
       throw_first(mesh.communicator(), error);
       state.u.update_ghost_values();

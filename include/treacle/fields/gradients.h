@@ -107,26 +107,37 @@ namespace treacle
     return mean_gradient(mesh, field, node, [](const LocalIndex) { return true; });
   }
 
+  /// The volume-weighted means of @p value (cell) over all cells around each node; of ghosts only what is known here.
+  template <int dim, typename Value>
+  auto
+  means_at_nodes(const Mesh<dim> &mesh, const Value &value)
+  {
+    std::vector<std::decay_t<decltype(value(LocalIndex()))>> mean(mesh.node_position.size());
+    std::vector<double>                                      volume(mean.size());
+    for (LocalIndex c = 0; c < mesh.cell_nodes.size(); ++c)
+      {
+        const auto part = mesh.cell_volume[c] * value(c);
+        for (const LocalIndex node : mesh.cell_nodes[c])
+          {
+            mean[node] += part;
+            volume[node] += mesh.cell_volume[c];
+          }
+      }
+    for (LocalIndex node = 0; node < mean.size(); ++node)
+      mean[node] /= volume[node];
+    return mean;
+  }
+
   /// Gradient of a P1 field at the nodes, the volume-weighted mean over the cells
   /// around each: exact for linear fields. Ghosts of the result are up to date.
   template <int dim>
   NodeVector<dim>
   nodal_gradient(const Mesh<dim> &mesh, const Vector &field)
   {
-    std::vector<Tensor<1, dim>> sum(mesh.node_position.size());
-    std::vector<double>         volume(sum.size());
-    for (LocalIndex c = 0; c < mesh.cell_nodes.size(); ++c)
-      {
-        const Tensor<1, dim> part = mesh.cell_volume[c] * cell_gradient(mesh, c, field);
-        for (const LocalIndex node : mesh.cell_nodes[c])
-          {
-            sum[node] += part;
-            volume[node] += mesh.cell_volume[c];
-          }
-      }
+    const auto mean = means_at_nodes(mesh, [&](const LocalIndex c) { return cell_gradient(mesh, c, field); });
     NodeVector<dim> gradient(mesh.nodes);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      gradient.set(node, sum[node] / volume[node]);
+      gradient.set(node, mean[node]);
     gradient.update_ghost_values();
     return gradient;
   }

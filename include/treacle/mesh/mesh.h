@@ -17,10 +17,8 @@ namespace treacle
   template <int dim>
   class Locator;
 
-  /// A distributed simplex mesh as flat arrays, in the order of deal.II's partitioners.
-  /// Never changed: a new surface makes a new mesh. Arrays hold the owned
-  /// entries first, then the ghosts, in the order of the partitioner's local
-  /// indices; ghost cells are all that share a node with an owned cell.
+  /// A distributed simplex mesh as flat arrays, in the order of deal.II's partitioners: owned entries first, then the ghosts. Ghost cells
+  /// are all that share a node with an owned cell. Never changed: a new surface makes a new mesh.
   template <int dim>
   class Mesh
   {
@@ -110,7 +108,6 @@ namespace treacle
     std::vector<std::array<LocalIndex, dim>> face_nodes;
     std::vector<double>                      face_area;
     std::vector<Tensor<1, dim>>              face_normal; ///< lower to higher cell, outward on the box
-    std::vector<Point<dim>>                  face_centre; ///< barycentre
     std::vector<double>                      face_dual_length; ///< signed along the normal
     std::vector<unsigned char>               face_side; ///< kind of wall, see Walls, or no_side
     static constexpr unsigned char           no_side = Walls<dim>::none;
@@ -134,6 +131,16 @@ namespace treacle
       for (unsigned int i = 0; i <= dim; ++i)
         x[i] = node_position[cell_nodes[cell][i]];
       return x;
+    }
+
+    /// Barycentre.
+    Point<dim>
+    face_centre(const LocalIndex face) const
+    {
+      Point<dim> centre;
+      for (const LocalIndex node : face_nodes[face])
+        centre += node_position[node] / dim;
+      return centre;
     }
 
     VertexValues<dim>

@@ -37,7 +37,7 @@ namespace treacle
     void
     add_face(const LocalIndex face)
     {
-      x.push_back(mesh.face_centre[face]);
+      x.push_back(mesh.face_centre(face));
       if (v == nullptr)
         return;
       cells.push_back(std::min(mesh.face_cells[face][0], mesh.face_cells[face][1]));

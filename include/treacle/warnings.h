@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#ifndef treacle_warnings_h
+#define treacle_warnings_h
+
+#include <treacle/base/log.h>
+#include <treacle/dynamics/step_info.h>
+#include <treacle/surface/liquid.h>
+
+#include <set>
+
+namespace treacle
+{
+  /// Tells the log of what a user may not have meant, and again only of what got worse.
+  class Warnings
+  {
+  public:
+    /// @p remedy makes the cells along the surface smaller, an imperative.
+    Warnings(Log &log, std::string remedy);
+
+    /// @p drift of the volume, relative.
+    template <int dim>
+    void
+    of_step(const StepInfo<dim> &info, const double drift);
+
+    /// Of what is thinner than cells. Collective.
+    template <int dim>
+    void
+    of_frame(const Liquid<dim> &liquid);
+
+  private:
+    Log                   &log;
+    const std::string      remedy;
+    double                 told_drift = 0;
+    double                 told_thin  = 0; ///< part of the liquid
+    std::set<unsigned int> told_solids;
+  };
+} // namespace treacle
+
+#endif

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/fields/thin_liquid.h>
+#include <treacle/fields/thin_solids.h>
+#include <treacle/scene/bodies.h>
+#include <treacle/warnings.h>
+
+namespace treacle
+{
+  Warnings::Warnings(Log &log, std::string remedy)
+    : log(log)
+    , remedy(std::move(remedy))
+  {}
+
+  template <int dim>
+  void
+  Warnings::of_step(const StepInfo<dim> &info, const double drift)
+  {
+    if (std::abs(drift) > told_drift + 0.05)
+      {
+        told_drift = std::abs(drift);
+        log.line("warning: the liquid has " + digits(100 * std::abs(drift)) + " % " +
+                 (drift < 0 ? "less" : "more") +
+                 " volume than it should. Parts thinner than a leaf are lost, which a larger Surface "
+                 "level holds; an emitter may pour into a box that is full, or solids leave no room.");
+      }
+    if (info.dynamics.fallbacks > 0)
+      log.line("warning: the coupled solve stagnated; this step was split with first projection. A "
+               "smaller Maximum time step, or Linear solvers/Coupled/Maximum iterations, may help.");
+  }
+
+  template <int dim>
+  void
+  Warnings::of_frame(const Liquid<dim> &liquid)
+  {
+    const LiquidDomain<dim> &domain = *liquid.domain;
+    if (const double thin = thin_part(domain, liquid.state->phi); thin > std::max(0.05, 2 * told_thin))
+      {
+        told_thin = thin;
+        log.line("warning: " + std::to_string(std::lround(100 * thin)) + " % of the liquid is thinner than a cell. Films get holes there, threads "
+                 "tear, and what is left withers; " + remedy);
+      }
+    if (domain.scene.has_solids())
+      for (const unsigned int k : thin_solids(domain, liquid.state->time))
+        if (told_solids.insert(k).second)
+          log.line("warning: " + numbered("Solid", k) +
+                   " is thinner than a cell where liquid is on it, which leaks through. Make it thicker, or " + remedy);
+  }
+
+  template void
+  Warnings::of_step(const StepInfo<2> &, const double);
+  template void
+  Warnings::of_step(const StepInfo<3> &, const double);
+  template void
+  Warnings::of_frame(const Liquid<2> &);
+  template void
+  Warnings::of_frame(const Liquid<3> &);
+} // namespace treacle
