@@ -12,7 +12,7 @@
 
 namespace treacle
 {
-  /// Tells the log of what a user may not have meant, and again only of what got worse.
+  /// Tells the log of what a user may not have meant: of what is lost or thin again when it got worse, of a solve that stagnated each time.
   class Warnings
   {
   public:

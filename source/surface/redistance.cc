@@ -79,14 +79,14 @@ namespace treacle
     const Cut                  cut(mesh, state.phi);
     Vector                     phi = scaled(mesh, state.phi, cut);
     const SurfaceDistance<dim> surface(mesh, extract_surface(mesh, phi), reach, solid_distance);
-    const NodeVector<dim>      slope = nodal_gradient(mesh, state.phi);
+    const auto slope = means_at_nodes(mesh, [&](const LocalIndex c) { return cell_gradient(mesh, c, state.phi); });
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       {
         if (cut.node[node])
           continue;
         double      &value = phi.local_element(node);
         const double kept  = std::abs(value) < kept_layers * mesh.surface_size() ?
-                               weight_of_kept(slope.value(node).norm()) :
+                               weight_of_kept(slope[node].norm()) :
                                0.;
         if (kept == 1)
           continue;

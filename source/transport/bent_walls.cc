@@ -15,8 +15,9 @@ namespace treacle
                 const double      time,
                 const bool        while_growing)
   {
-    // of a finest leaf, between the distance in the middle of a cube and the mean of its vertices
-    constexpr double most_bent = 0.25;
+    // of a finest leaf, between the distance in the middle of a cube and the mean of its vertices; more before a new mesh is made, lest
+    // one is for each leaf that a solid moves into
+    const double most_bent = while_growing ? 0.25 : 0.4;
     if (!scene.has_solids())
       return false;
     const double reach     = 3 * half_diagonal<dim>(edge); // no more is asked for

@@ -34,7 +34,7 @@ plate(const MPI_Comm &comm, const double x, const double leaves)
                    1,
                    2);
   const double speed = rows.back().at("Maximum speed (m/s)");
-  const bool   is_warned = has_logged(comm, dim, "Solid 1 is thinner than a cell");
+  const bool   is_warned = has_logged(comm, dim, "Solid 1 is thinner than a cell where");
   out() << dim << "D: plate of " << leaves << " leaves at " << x << " between pools: "
         << (speed < 0.01   ? is_warned ? "warned of, BUT HOLDS" : "holds" :
             is_warned ? "leaks as the log says" :
@@ -53,7 +53,7 @@ coats(const MPI_Comm &comm)
                "subsection Solid 2\nset Shape = box\nset Lower corner = 0.3, 0.01\nset Upper corner = 0.7, 0.2\nend\n"
                "subsection Solid 3\nset Shape = box\nset Lower corner = 0.3, 0.2\nset Upper corner = 0.7, 0.217\nend\n",
                3);
-  out() << "coats of half a leaf: " << (has_logged(comm, 2, "thinner than a cell") ? "WARNED OF" : "no warning") << std::endl;
+  out() << "coats of half a leaf: " << (has_logged(comm, 2, "is thinner than a cell where") ? "WARNED OF" : "no warning") << std::endl;
 }
 
 void

@@ -9,7 +9,7 @@
 namespace treacle
 {
   /// Do leaves of a cube's size fail to show where the walls of solids are in it, as at edges and in plates and gaps thinner than they are: by
-  /// more than a quarter of the @p finest (m)? While leaves grow, in any such cube half an edge away.
+  /// more than 0.4 of the @p finest (m)? While leaves grow, by a quarter, in any such cube half an edge away.
   template <int dim>
   bool
   walls_bend_in(const Scene<dim> &scene,
