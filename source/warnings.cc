@@ -23,7 +23,7 @@ namespace treacle
         log.line("warning: the liquid has " + digits(100 * std::abs(drift)) + " % " +
                  (drift < 0 ? "less" : "more") +
                  " volume than it should. Parts thinner than a leaf are lost, which a larger Surface "
-                 "level holds; an emitter may pour into a box that is full, or solids leave no room.");
+                 "level holds; or solids leave no room.");
       }
     if (info.dynamics.fallbacks > 0)
       log.line("warning: the coupled solve stagnated; this step was split with first projection. A "
@@ -41,6 +41,9 @@ namespace treacle
         log.line("warning: " + std::to_string(std::lround(100 * thin)) + " % of the liquid is thinner than a cell. Films get holes there, threads "
                  "tear, and what is left withers; " + remedy);
       }
+    if (domain.emitters_rest && !told_full)
+      log.line("warning: the container is full. Emitters pour no more, unless solids make room.");
+    told_full = domain.emitters_rest;
     if (domain.scene.has_solids())
       for (const unsigned int k : thin_solids(domain, liquid.state->time))
         if (told_solids.insert(k).second)

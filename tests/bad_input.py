@@ -80,9 +80,10 @@ CASES = [
     ("emitter that starts while the surface stays", {
         "Steps/Surface": "false", "Emitter 1/Radius": "0.1", "Emitter 1/Start time": "0.01"},
      r"Emitter 1/Start time.*Steps/Surface"),
-    ("emitter in a full container", {
-        "Liquid 1/Shape": "half space", "Liquid 1/Centre": "0, 10", "Liquid 1/Normal": "0, 1",
-        "Emitter 1/Radius": "0.1", "Emitter 1/Centre": "0.5, 1", "Emitter 1/Velocity": "0; -1"},
+    ("emitter in one full container of two", {
+        "Liquid 1/Shape": "expression", "Liquid 1/Expression": "min(x - 0.7, y - 0.2)",
+        "Solid 1/Shape": "box", "Solid 1/Lower corner": "0.6, -1", "Solid 1/Upper corner": "0.8, 2",
+        "Emitter 1/Radius": "0.1", "Emitter 1/Centre": "0.3, 1", "Emitter 1/Velocity": "0; -1"},
      r"Emitter: it pours .* full of liquid.*Stop time"),
     ("mesh without a file", {"Mesh/Type": "file"}, r"Mesh/File.*needs the name"),
     ("missing mesh", {"Mesh/Type": "file", "Mesh/File": "nowhere.msh"}, r"nowhere\.msh.*cannot be opened"),

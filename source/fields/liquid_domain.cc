@@ -36,11 +36,13 @@ namespace treacle
   template <int dim>
   LiquidDomain<dim>::LiquidDomain(const Parameters    &parameters,
                                   const State<dim>    &state,
-                                  const MeshData<dim> &data)
+                                  const MeshData<dim> &data,
+                                  const bool           emitters_rest)
     : data(data)
     , mesh(data.mesh)
     , scene(data.scene)
     , minimum_theta(parameters.minimum_theta)
+    , emitters_rest(emitters_rest)
   {
     scene.check_solids(state.time);
     solid_distance = data.solid_distance(state.time);
@@ -64,7 +66,7 @@ namespace treacle
     held_distance = solid_distance;
     is_emitter_node.assign(solid_distance.size(), 0);
     emitter_distance.clear();
-    if (scene.emitters().empty())
+    if (scene.emitters().empty() || emitters_rest)
       return;
     emitter_distance.resize(held_distance.size());
     for (LocalIndex node = 0; node < held_distance.size(); ++node)

@@ -3,6 +3,7 @@
 
 #include <treacle/base/exceptions.h>
 #include <treacle/fields/connected_liquid.h>
+#include <treacle/fields/full_container.h>
 #include <treacle/pressure/closed_pockets.h>
 
 #include <map>
@@ -42,43 +43,27 @@ namespace treacle
   std::set<GlobalIndex>
   ClosedPockets<dim>::closed_labels(const Vector &label) const
   {
-    const Mesh<dim>      &mesh = domain.mesh;
+    const MPI_Comm       &comm = domain.mesh.communicator();
     std::set<GlobalIndex> closed, open;
     for (const LocalIndex c : cells.owned)
-      {
-        closed.insert(label.local_element(c));
-        for (const LocalIndex f : mesh.cell_faces[c])
-          for (const LocalIndex other : mesh.face_cells[f])
-            if (other != invalid && domain.is_liquid_face(f) && !domain.is_pressure_cell[other])
-              open.insert(label.local_element(c));
-      }
-    for (const GlobalIndex l : everywhere(mesh.communicator(), open))
+      (has_free_surface(domain, c) ? open : closed).insert(label.local_element(c));
+    for (const GlobalIndex l : everywhere(comm, open))
       closed.erase(l);
-    return everywhere(mesh.communicator(), closed);
+    return everywhere(comm, closed);
   }
 
   template <int dim>
   void
   ClosedPockets<dim>::check_room(const Pocket &pocket) const
   {
-    const Mesh<dim>      &mesh = domain.mesh;
-    // net, of solids that make room too; through faces of emitters whichever way (m^dim/s)
-    std::array<double, 2> poured{};
+    std::vector<LocalIndex> wet;
     for (const unsigned int i : pocket.rows)
-      {
-        poured[0] -= domain.closed_outflow(cells.owned[i]);
-        for (const LocalIndex f : mesh.cell_faces[cells.owned[i]])
-          if (const auto &nodes = mesh.face_nodes[f];
-              std::any_of(nodes.begin(), nodes.end(), [&](const LocalIndex node) { return domain.is_emitter_node[node]; }))
-            poured[1] += std::abs(mesh.face_area[f] * (1 - domain.open_fraction[f]) * domain.solid_velocity[f]);
-      }
-    Utilities::MPI::sum(ArrayView<const double>(poured.data(), 2),
-                        mesh.communicator(),
-                        ArrayView<double>(poured.data(), 2));
-    // not what a few cells between an emitter and a wall see, nor an emitter that stirs
-    require(poured[1] == 0 || poured[0] <= 0.5 * poured[1] || pocket.size < 100 ||
+      wet.push_back(cells.owned[i]);
+    const Inflow inflow = inflow_into(domain, wet);
+    // not what a few cells between an emitter and a wall see
+    require(!inflow.is_too_much() || pocket.size < 100 ||
               2 * pocket.size <= cells.rows.size(),
-            "Emitter: it pours " + digits(poured[0]) + (dim == 2 ? " m^2/s" : " m^3/s") +
+            "Emitter: it pours " + digits(inflow.net) + (dim == 2 ? " m^2/s" : " m^3/s") +
               " into a closed container that is full of liquid; there is no room: leave air above the "
               "liquid, or set an earlier Stop time.");
   }

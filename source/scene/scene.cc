@@ -44,7 +44,7 @@ namespace treacle
     shape.add_parameters(prm);
     prm.add_parameter("Velocity",
                       velocity,
-                      "Velocity (m/s) at the start" + formulas<dim>());
+                      "Velocity (m/s) at the start" + formulas<dim>() + " Where liquids overlap the highest number counts, for materials too.");
     material.add_parameters(prm, "; as in Material if empty (Transport = advected).");
   }
 
@@ -240,6 +240,9 @@ namespace treacle
   const typename Scene<dim>::Liquid &
   Scene<dim>::liquid_at(const Point<dim> &x) const
   {
+    for (unsigned int k = liquids.size() - 1; k > 0; --k)
+      if (side_of_liquid(k, x) < 0)
+        return liquids[k];
     return liquids.size() == 1 ? liquids.front() : *nearest_liquid(x).first;
   }
 

@@ -121,15 +121,18 @@ namespace treacle
 
   template <int dim>
   std::vector<Parcel<dim>>
-  emit(State<dim> &state, const MeshData<dim> &data, const double dt)
+  emit(State<dim> &state, const MeshData<dim> &data, const double dt, const Room &room)
   {
+    if (!(room.air > 0))
+      return {};
     // steps end where emitters start and stop
     const Scene<dim> &scene = data.scene;
     const double      h = data.mesh.finest_size(), end = state.time, start = std::max(0., end - dt),
                  middle    = 0.5 * (start + end);
+    constexpr double         near_full = 4; // layers: what is cut off at a wall there would take in all that is poured
     std::vector<Parcel<dim>> inflow;
     const auto fill_with = [&](const double time, const double earlier, const double way) {
-      const EmitterFilling<dim> filling(scene, h, time, earlier, way);
+      const EmitterFilling<dim> filling(scene, h, time, earlier, way, room.air > near_full * room.layer);
       const auto                part = fill_emitters(state, data, filling);
       inflow.insert(inflow.end(), part.begin(), part.end());
       if (state.material)
@@ -146,11 +149,14 @@ namespace treacle
           return emitter.is_at_work(end) && !emitter.is_at_work(middle);
         }))
       fill_with(end, middle, 0);
+    if (const double poured = sum(inflow, data.mesh.communicator()); poured > room.air)
+      for (Parcel<dim> &parcel : inflow)
+        parcel.volume *= room.air / poured;
     return inflow;
   }
 
   template std::vector<Parcel<2>>
-  emit(State<2> &, const MeshData<2> &, const double);
+  emit(State<2> &, const MeshData<2> &, const double, const Room &);
   template std::vector<Parcel<3>>
-  emit(State<3> &, const MeshData<3> &, const double);
+  emit(State<3> &, const MeshData<3> &, const double, const Room &);
 } // namespace treacle

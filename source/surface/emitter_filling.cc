@@ -84,12 +84,14 @@ namespace treacle
                                       const double      h,
                                       const double      time,
                                       const double      earlier,
-                                      const double      dt)
+                                      const double      dt,
+                                      const bool        cuts_skins)
     : scene(scene)
     , h(h)
     , time(time)
     , dt(dt)
     , farthest_way(16 * h) // more than any step allows
+    , cuts_skins(cuts_skins)
     , filled(distance_to_filled(scene, h, time))
     , filled_before(distance_to_filled(scene, h, earlier))
   {}
@@ -121,11 +123,12 @@ namespace treacle
       return to_filled;
     const auto at = [&](const double of_way) { return filled(x - of_way * way); };
     // a distance is convex along a line if its body is: most points are beside streams that flow on, where it is least at the end, and phi
-    // what has come to be there, which may be less; but not where that would have come from beyond a wall
+    // what has come to be there, which may be less; but not where that would have come from beyond a wall, as beside half a ball at the
+    // ceiling
     constexpr double step = 1e-3, flat = 0.05; // of the way; m/m
     const double     at_end = at(1), slope = (at_end - at(1 - step)) / (step * length),
                  lowest = std::max(at_end - slope * length, 0.5 * (to_filled + at_end - length));
-    if (std::abs(slope) < flat || (part == 1 && slope < 0) || lowest > near * h)
+    if ((std::abs(slope) < flat && (part == 1 || to_filled - at_end < flat * length)) || (part == 1 && slope < 0) || lowest > near * h)
       return to_filled;
     constexpr int        bits = 6; // of the way
     boost::uintmax_t     most = 10;
@@ -144,7 +147,7 @@ namespace treacle
   double
   EmitterFilling<dim>::through_wall(const Point<dim> &x, const Tensor<1, dim> &way, const double depth) const
   {
-    const double part = depth > 0 ? part_before_wall(x, way, scene, h, time) : 1;
+    const double part = cuts_skins && depth > 0 ? part_before_wall(x, way, scene, h, time) : 1;
     return part == 1 ? std::numeric_limits<double>::lowest() : std::min(filled(x - part * way), depth);
   }
 

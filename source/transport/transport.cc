@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/exchange.h>
+#include <treacle/fields/full_container.h>
 #include <treacle/fields/liquid_volume.h>
 #include <treacle/fields/moved_points.h>
 #include <treacle/surface/carried_material.h>
@@ -97,7 +98,7 @@ namespace treacle
     info.rebuilt       = mesh != old.mesh;
     auto data          = info.rebuilt ? std::make_shared<const MeshData<dim>>(*mesh, scene) : liquid.mesh_data;
     next->markers      = to_owners(*mesh, markers);
-    const auto inflow  = emit(*next, *data, difference.dt);
+    const auto inflow  = emit(*next, *data, difference.dt, room(*liquid.domain));
     info.emitted       = sum(inflow, mesh->communicator());
     tracking.follow_markers(*next, *data, difference.dt, time_step.reach_of_distance(reach, *mesh));
     const double wanted = volume + info.emitted; // what earlier steps left to be corrected is not of this one

@@ -2,7 +2,8 @@
 // Copyright (C) the Treacle authors
 
 // What emitters pour out: against the ceiling and in the air, with a stop; the volume
-// is area times velocity times time, in small steps and through faces of cells too, and the stream as thick as its emitter. One that starts late brings its own volume with it.
+// is area times velocity times time, in small steps and through faces of cells too, and the stream as thick as its emitter. One that starts late brings its own volume with it, and one
+// whose container is full pours no more.
 // And liquids of two viscosities that travel: the jump between them smears, with first
 // order in the leaf.
 // Argument: level.
@@ -157,6 +158,55 @@ pour_askew(const MPI_Comm &comm, const unsigned int level)
                error = poured / (time * 2 * slanted * std::pow(0.25, dim - 1)) - 1;
   out() << dim << "D askew: emitted " << (std::abs(error) < 0.015 ? "as much as flows out" : "OFF, " + std::to_string(error))
         << std::endl;
+}
+
+/// Half a ball at the ceiling, in steps of two leaves: its sides leave the ceiling upright, and bend.
+template <int dim>
+void
+pour_from_dome(const MPI_Comm &comm, const unsigned int level)
+{
+  const double      end = 0.5, radius = 0.1;
+  const auto        rows = run_scene<dim>(comm,
+                                   "set End time = " + std::to_string(end) + "\nset Frame interval = 10\nset Maximum time step = 0.0625\n" +
+                                     mesh_section(level) + "subsection Domain\nset Upper corner = 0.5, " + (dim == 2 ? "1" : "0.5, 1") +
+                                     "\nend\nsubsection Gravity\nset Acceleration = 0; 0" + (dim == 2 ? "" : "; 0") +
+                                     "\nend\nsubsection Material\nset Viscosity = 100\nend\nsubsection Emitter 1\nset Centre = 0.26, " +
+                                     (dim == 2 ? "1" : "0.25, 1") + "\nset Radius = " + std::to_string(radius) + "\nend\n",
+                                   0,
+                                   0,
+                                   1);
+  const double poured = rows.back().at(dim == 2 ? "Emitted volume (m^2)" : "Emitted volume (m^3)"),
+               error  = poured / (end * (dim == 2 ? 2 * radius : numbers::PI * radius * radius)) - 1;
+  if (Utilities::MPI::this_mpi_process(comm) == 0) // for a person
+    std::cout << dim << "D from a dome: emitted/expected " << 1 + error << std::endl;
+  out() << dim << "D from a dome: emitted " << (std::abs(error) < 0.02 ? "as much as flows out" : "OFF, " + std::to_string(error)) << std::endl;
+}
+
+/// What is full stays so, and what would be poured is not counted, but for a layer of a leaf; half a ball at the ceiling, or in 2D in a round container.
+template <int dim>
+void
+fill_up(const MPI_Comm &comm)
+{
+  const std::string below = dim == 2 ? "0.15, " : "0.27, 0.25, ";
+  const auto        rows  = run_scene<dim>(comm,
+                                   "set End time = 0.6\nset Frame interval = 10\nset Maximum time step = 0.02\n" + mesh_section(4) +
+                                     "subsection Domain\nset Upper corner = 0.5, " + (dim == 2 ? "0.5" : "0.5, 0.5") +
+                                     "\nend\nsubsection Material\nset Viscosity = 5\nend\nsubsection Liquid 1\nset Shape = half space\nset Centre = " +
+                                     below + (dim == 2 ? "0.4" : "0.44") + "\nset Normal = 0, " + (dim == 2 ? "1" : "0, 1") +
+                                     "\nend\nsubsection Emitter 1\nset Centre = " + below + "0.5\nset Radius = 0.1\nend\n" +
+                                     (dim == 2 ? "subsection Solid 1\nset Centre = 0.25, 0.28\nset Radius = 0.23\nset Invert = true\nend\n" : ""),
+                                   dim == 2,
+                                   1,
+                                   1);
+  const Row   &end    = rows.back();
+  const double volume = end.at(dim == 2 ? "Liquid volume (m^2)" : "Liquid volume (m^3)"), drift = end.at("Volume drift"),
+               air    = (dim == 2 ? numbers::PI * 0.23 * 0.23 : 0.125) - volume, // m^dim
+               layer  = (dim == 2 ? 0.2 : numbers::PI * 0.01) / 32;             // of a leaf, as wide as the emitter
+  if (Utilities::MPI::this_mpi_process(comm) == 0) // for a person
+    std::cout << dim << "D full: air " << air << ", a layer " << layer << ", drift " << drift << std::endl;
+  out() << dim << "D filled up: the container " << (air < layer ? "is full" : "IS NOT FULL, " + std::to_string(air)) << ", emitted "
+        << (std::abs(drift) * volume < layer ? "as much as is there" : "OFF, " + std::to_string(drift)) << ", and in the last step "
+        << (end.at(dim == 2 ? "Emission rate (m^2/s)" : "Emission rate (m^3/s)") == 0 ? "nothing" : "MORE") << std::endl;
 }
 
 /// One that fills a channel, in 3D a quarter of a pipe beside two planes of symmetry, up to its wall; neither the wall nor its end lies on
@@ -334,6 +384,10 @@ start(const int argc, char **argv)
     pour_round(comm, "a little askew", 0.15);
     pour_askew<2>(comm, level + 1);
     pour_askew<3>(comm, level);
+    pour_from_dome<2>(comm, level);
+    pour_from_dome<3>(comm, level);
+    fill_up<2>(comm);
+    fill_up<3>(comm);
     pour_through_channel<2>(comm);
     pour_through_channel<3>(comm);
     creep_through_channel<2>(comm);

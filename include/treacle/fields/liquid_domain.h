@@ -40,12 +40,14 @@ namespace treacle
     /// @p data are of the state's mesh, and must outlive this object.
     LiquidDomain(const Parameters    &parameters,
                  const State<dim>    &state,
-                 const MeshData<dim> &data);
+                 const MeshData<dim> &data,
+                 const bool           emitters_rest = false);
 
     const MeshData<dim> &data;
     const Mesh<dim>     &mesh;
     const Scene<dim>    &scene;
     const double         minimum_theta;
+    const bool           emitters_rest; ///< they pour nothing, and what is in them is liquid as any other
 
     // -- cells --
     std::vector<double>         liquid_volume;    ///< of {phi<0} outside solids (m^dim)

@@ -6,6 +6,8 @@
 
 #include <treacle/base/types.h>
 
+#include <deal.II/base/mpi.h>
+
 namespace treacle
 {
   /// Some liquid that moves as one.
@@ -38,6 +40,17 @@ namespace treacle
       return parcel;
     }
   };
+
+  /// Volume of parcels, or of other parts that have one, over all ranks (m^dim). Collective.
+  template <typename Part>
+  double
+  sum(const std::vector<Part> &parts, const MPI_Comm &comm)
+  {
+    double volume = 0;
+    for (const Part &part : parts)
+      volume += part.volume;
+    return Utilities::MPI::sum(volume, comm);
+  }
 } // namespace treacle
 
 #endif

@@ -114,11 +114,11 @@ namespace treacle
     double
     distance_to_liquids(const Point<dim> &x) const;
 
-    /// Velocity at t = 0: of the emitter around x, or of the nearest liquid.
+    /// Velocity at t = 0: of the emitter around x, or of the last liquid around it, or else of the nearest.
     Tensor<1, dim>
     initial_velocity(const Point<dim> &x) const;
 
-    /// Material at t = 0: of the emitter around x, or of the nearest liquid.
+    /// Material at t = 0, of the same.
     const Material<dim> &
     initial_material(const Point<dim> &x) const;
 
@@ -166,7 +166,7 @@ namespace treacle
     std::pair<const Liquid *, double>
     nearest_liquid(const Point<dim> &x) const;
 
-    /// The nearest alone.
+    /// The last of those around x; outside of all the nearest.
     const Liquid &
     liquid_at(const Point<dim> &x) const;
 

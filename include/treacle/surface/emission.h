@@ -4,6 +4,7 @@
 #ifndef treacle_surface_emission_h
 #define treacle_surface_emission_h
 
+#include <treacle/fields/full_container.h>
 #include <treacle/fields/mesh_data.h>
 #include <treacle/fields/parcel.h>
 #include <treacle/fields/state.h>
@@ -14,10 +15,10 @@ namespace treacle
   /// state.time, and those that start there: level set, markers and carried material. The skin of a stream along the wall it comes from
   /// is removed. Returns what flowed in, by the cells of this rank,
   /// which is less than the emitter's volume rate where the liquid around
-  /// it takes part in the motion. Collective.
+  /// it takes part in the motion, and no more than there is room for; without any nothing changes. Collective.
   template <int dim>
   std::vector<Parcel<dim>>
-  emit(State<dim> &state, const MeshData<dim> &data, const double dt);
+  emit(State<dim> &state, const MeshData<dim> &data, const double dt, const Room &room);
 } // namespace treacle
 
 #endif

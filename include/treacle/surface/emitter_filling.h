@@ -19,8 +19,8 @@ namespace treacle
   class EmitterFilling
   {
   public:
-    /// Full a time of @p dt before were the emitters that worked @p earlier; h is the finest leaf.
-    EmitterFilling(const Scene<dim> &scene, const double h, const double time, const double earlier, const double dt);
+    /// Full a time of @p dt before were the emitters that worked @p earlier; h is the finest leaf. Is what came through a wall cut off?
+    EmitterFilling(const Scene<dim> &scene, const double h, const double time, const double earlier, const double dt, const bool cuts_skins);
 
     struct Phi
     {
@@ -64,6 +64,7 @@ namespace treacle
 
     const Scene<dim> &scene;
     const double      h, time, dt, farthest_way;
+    const bool        cuts_skins;
     Distance<dim>     filled, filled_before;
   };
 } // namespace treacle

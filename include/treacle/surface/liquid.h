@@ -4,7 +4,7 @@
 #ifndef treacle_surface_liquid_h
 #define treacle_surface_liquid_h
 
-#include <treacle/fields/liquid_domain.h>
+#include <treacle/fields/full_container.h>
 #include <treacle/surface/surface_geometry.h>
 
 namespace treacle
@@ -37,7 +37,7 @@ namespace treacle
     void
     find(const typename LiquidDomain<dim>::Parameters &parameters)
     {
-      domain = std::make_shared<const LiquidDomain<dim>>(parameters, *state, *mesh_data);
+      domain = liquid_domain_of(parameters, *state, *mesh_data);
     }
   };
 } // namespace treacle

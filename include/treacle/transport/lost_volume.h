@@ -48,17 +48,6 @@ namespace treacle
   double
   swept_outwards(const MovedSurface<dim> &surface);
 
-  /// Volume of lost parts or parcels over all ranks (m^dim). Collective.
-  template <typename Part>
-  double
-  sum(const std::vector<Part> &parts, const MPI_Comm &comm)
-  {
-    double volume = 0;
-    for (const Part &part : parts)
-      volume += part.volume;
-    return Utilities::MPI::sum(volume, comm);
-  }
-
   /// A @p volume (m^dim) of what was lost, @p way (m) in front of where that was. Collective.
   template <int dim>
   std::vector<Parcel<dim>>
