@@ -42,8 +42,10 @@ namespace treacle
                  "tear, and what is left withers; " + remedy);
       }
     if (domain.emitters_rest && !told_full)
-      log.line("warning: the container is full. Emitters pour no more, unless solids make room.");
-    told_full = domain.emitters_rest;
+      {
+        told_full = true;
+        log.line("warning: the container is full. Emitters pour no more, unless solids make room.");
+      }
     if (domain.scene.has_solids())
       for (const unsigned int k : thin_solids(domain, liquid.state->time))
         if (told_solids.insert(k).second)

@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/fields/full_container.h>
+#include <treacle/geometry/cut_simplex.h>
 
 namespace treacle
 {
@@ -9,21 +10,18 @@ namespace treacle
   Inflow
   inflow_into(const LiquidDomain<dim> &domain, const std::vector<LocalIndex> &cells)
   {
-    std::array<double, 3> inflow{};
+    std::array<double, 2> inflow{};
     for (const LocalIndex c : cells)
       {
         const auto  &nodes = domain.mesh.cell_nodes[c];
         const double here  = -domain.closed_outflow(c);
         inflow[0] += here;
         if (std::any_of(nodes.begin(), nodes.end(), [&](const LocalIndex node) { return domain.is_emitter_node[node]; }))
-          {
-            inflow[1] += here;
-            inflow[2] += std::abs(here);
-          }
+          inflow[1] += std::abs(here);
       }
     Utilities::MPI::sum(
-      ArrayView<const double>(inflow.data(), 3), domain.mesh.communicator(), ArrayView<double>(inflow.data(), 3));
-    return {inflow[0], inflow[1], inflow[2]};
+      ArrayView<const double>(inflow.data(), 2), domain.mesh.communicator(), ArrayView<double>(inflow.data(), 2));
+    return {inflow[0], inflow[1]};
   }
 
   template <int dim>
@@ -55,10 +53,18 @@ namespace treacle
     double
     air_outside_solids(const LiquidDomain<dim> &domain)
     {
+      VertexValues<dim> full;
+      full.fill(-1);
       double volume = 0;
       for (LocalIndex c = 0; c < domain.mesh.n_owned_cells(); ++c)
-        if (const auto distance = domain.mesh.values(c, domain.solid_distance); *std::max_element(distance.begin(), distance.end()) > 0)
-          volume += domain.open_volume(c) - domain.liquid_volume[c];
+        {
+          const auto distance = domain.mesh.values(c, domain.solid_distance);
+          const auto [low, high] = std::minmax_element(distance.begin(), distance.end());
+          if (*high > 0)
+            volume += (*low > 0 ? domain.mesh.cell_volume[c] :
+                                  liquid_moments<dim>(domain.mesh.cell_vertices(c), full, distance).volume) -
+                      domain.liquid_volume[c];
+        }
       return Utilities::MPI::sum(volume, domain.mesh.communicator());
     }
   } // namespace
@@ -67,7 +73,7 @@ namespace treacle
   Room
   room(const LiquidDomain<dim> &domain)
   {
-    constexpr double little = 0.05; // of the liquid's volume
+    constexpr double little = 0.25; // of the liquid's volume
     const Mesh<dim> &mesh   = domain.mesh;
     if (domain.scene.emitters().empty() || domain.emitters_rest)
       return {};
@@ -86,13 +92,14 @@ namespace treacle
   bool
   is_full(const LiquidDomain<dim> &domain)
   {
-    const Room space = room(domain);
-    if (space.layer == 0)
+    if (domain.scene.emitters().empty())
       return false;
+    const Room space   = room(domain);
     const auto cells   = wet_cells(domain);
-    const bool is_open = std::any_of(cells.begin(), cells.end(), [&](const LocalIndex c) { return has_free_surface(domain, c); });
-    return inflow_into(domain, cells).is_too_much() &&
-           (space.air < space.layer || !Utilities::MPI::logical_or(is_open, domain.mesh.communicator()));
+    const bool is_open = Utilities::MPI::logical_or(
+      std::any_of(cells.begin(), cells.end(), [&](const LocalIndex c) { return has_free_surface(domain, c); }),
+      domain.mesh.communicator());
+    return (!is_open || space.air < space.layer) && inflow_into(domain, cells).is_too_much();
   }
 
   template <int dim>

@@ -123,8 +123,6 @@ namespace treacle
   std::vector<Parcel<dim>>
   emit(State<dim> &state, const MeshData<dim> &data, const double dt, const Room &room)
   {
-    if (!(room.air > 0))
-      return {};
     // steps end where emitters start and stop
     const Scene<dim> &scene = data.scene;
     const double      h = data.mesh.finest_size(), end = state.time, start = std::max(0., end - dt),
@@ -149,7 +147,7 @@ namespace treacle
           return emitter.is_at_work(end) && !emitter.is_at_work(middle);
         }))
       fill_with(end, middle, 0);
-    if (const double poured = sum(inflow, data.mesh.communicator()); poured > room.air)
+    if (const double poured = sum(inflow, data.mesh.communicator()); poured > room.air && !scene.has_moving_solids())
       for (Parcel<dim> &parcel : inflow)
         parcel.volume *= room.air / poured;
     return inflow;

@@ -197,7 +197,7 @@ namespace treacle
   unsigned int
   Reactions<dim>::holder(const Point<dim> &x) const
   {
-    return domain.scene.is_emitter_nearest(x, time) ? none : domain.scene.nearest_solid(x, time);
+    return !domain.emitters_rest && domain.scene.is_emitter_nearest(x, time) ? none : domain.scene.nearest_solid(x, time);
   }
 
   template <int dim>

@@ -11,15 +11,14 @@ namespace treacle
   /// What closed parts of faces carry into some cells (m^dim/s).
   struct Inflow
   {
-    double net          = 0;
-    double of_emitters  = 0; ///< of it into cells at emitters
-    double at_emitters  = 0; ///< into and out of these, added up
+    double net         = 0; ///< of solids that make room, too
+    double at_emitters = 0; ///< into and out of cells at emitters, added up
 
-    /// Do emitters pour, and not only stir, more than solids make room for?
+    /// Is there no room for most of what emitters pour? Not from one that stirs.
     bool
     is_too_much() const
     {
-      return of_emitters > 0.5 * at_emitters && net > 0.05 * at_emitters;
+      return at_emitters > 0 && net > 0.5 * at_emitters;
     }
   };
 

@@ -15,7 +15,7 @@ namespace treacle
   /// state.time, and those that start there: level set, markers and carried material. The skin of a stream along the wall it comes from
   /// is removed. Returns what flowed in, by the cells of this rank,
   /// which is less than the emitter's volume rate where the liquid around
-  /// it takes part in the motion, and no more than there is room for; without any nothing changes. Collective.
+  /// it takes part in the motion, and, unless solids may make some, no more than there is room for. Collective.
   template <int dim>
   std::vector<Parcel<dim>>
   emit(State<dim> &state, const MeshData<dim> &data, const double dt, const Room &room);
