@@ -147,9 +147,10 @@ namespace treacle
           return emitter.is_at_work(end) && !emitter.is_at_work(middle);
         }))
       fill_with(end, middle, 0);
-    if (const double poured = sum(inflow, data.mesh.communicator()); poured > room.air && !scene.has_moving_solids())
+    const double most = scene.has_moving_solids() ? std::numeric_limits<double>::max() : std::max(0., room.air);
+    if (const double poured = sum(inflow, data.mesh.communicator()); poured > most)
       for (Parcel<dim> &parcel : inflow)
-        parcel.volume *= room.air / poured;
+        parcel.volume *= most / poured;
     return inflow;
   }
 
