@@ -6,6 +6,7 @@ import numpy
 
 from treacle.errors import DataError
 from treacle.formula import formula
+from treacle.motion import rotation
 
 
 def norm(x):
@@ -45,9 +46,22 @@ def to_expression(x, text):
     return numpy.array([at(point) for point in x.tolist()])
 
 
+def placement(solid):
+    """A matrix (dim, dim) and a vector (dim,), m: what the shape has at x is at matrix @ x + vector at t = 0."""
+    shift, angle = solid.numbers("Translation"), numpy.radians(solid.numbers("Rotation angle"))
+    axis = solid.numbers("Rotation axis") / norm(solid.numbers("Rotation axis"))
+    return solid.numbers("Scale")[0] * rotation(angle * axis if len(shift) == 3 else angle), shift
+
+
 def distance(solid, x):
     """Of points x, (n, dim), to a treacle.run.Solid where it was at t = 0, (n,), negative inside its shape (m; an expression's is what its
     formula says). DataError where it is not known here."""
+    matrix, shift = placement(solid)
+    return solid.numbers("Scale")[0] * plain_distance(solid, numpy.linalg.solve(matrix, (x - shift).T).T)
+
+
+def plain_distance(solid, x):
+    """The same before it is placed."""
     number = solid.numbers
     if solid.shape == "sphere":
         return norm(x - number("Centre")) - number("Radius")
@@ -74,8 +88,11 @@ def extent(solid, lower, upper):
     number = solid.numbers
     if solid.shape == "capsule":
         ends = numpy.stack([number("Start"), number("End")])
-        return ends.min(axis=0) - number("Radius"), ends.max(axis=0) + number("Radius")
-    if solid.shape == "torus":
-        reach = number("Radius") + number("Minor radius")
-        return number("Centre") - reach, number("Centre") + reach
-    return lower, upper
+    elif solid.shape == "torus":
+        ends = number("Centre")[None]
+    else:
+        return lower, upper
+    matrix, shift = placement(solid)
+    reach = number("Scale") * (number("Radius") + (number("Minor radius") if solid.shape == "torus" else 0))
+    ends = ends @ matrix.T + shift
+    return ends.min(axis=0) - reach, ends.max(axis=0) + reach

@@ -45,6 +45,7 @@ namespace treacle
                       "expression: a formula in x,y,z (2D: x,y) (m) that is near the "
                       "surface like a distance (m), negative inside.");
     add_triangle_mesh(prm);
+    add_placement(prm);
   }
 
   template <int dim>
@@ -86,20 +87,16 @@ namespace treacle
                       centre_at_origin,
                       "triangle mesh: first move the centre of its bounding box to the "
                       "origin.");
-    prm.add_parameter("Scale",
-                      scale,
-                      "triangle mesh: then multiply its coordinates by this (m per unit "
-                      "of the file).");
-    prm.add_parameter("Rotation axis",
-                      rotation_axis,
-                      "triangle mesh: then rotate it about this direction ...");
-    prm.add_parameter("Rotation angle",
-                      rotation_angle,
-                      "triangle mesh: ... through the origin, by this angle (degrees, "
-                      "right-handed).");
-    prm.add_parameter("Translation",
-                      translation,
-                      "triangle mesh: last move it by this (m).");
+  }
+
+  template <int dim>
+  void
+  ShapeParameters<dim>::add_placement(ParameterHandler &prm)
+  {
+    prm.add_parameter("Scale", scale, "Multiply the body's coordinates by this (triangle mesh: m per unit of the file).");
+    prm.add_parameter("Rotation axis", rotation_axis, "Then rotate it about this direction (in 2D there is but one) ...");
+    prm.add_parameter("Rotation angle", rotation_angle, "... through the origin, by this angle (degrees, right-handed).");
+    prm.add_parameter("Translation", translation, "Last move it by this (m).");
   }
 
   template struct ShapeParameters<2>;

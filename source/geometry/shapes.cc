@@ -3,6 +3,7 @@
 
 #include <treacle/base/exceptions.h>
 #include <treacle/geometry/expression.h>
+#include <treacle/geometry/pose.h>
 #include <treacle/geometry/shapes.h>
 #include <treacle/geometry/triangle_surface.h>
 
@@ -185,28 +186,47 @@ namespace treacle
       return Expression<dim>(p.expression, where + "/Expression", false);
     }
 
+    /// A body where scale, rotation and translation put it.
     template <int dim>
-    std::pair<Distance<dim>, DistanceWithin<dim>>
-    make(const Parameters<dim> &p, const std::string &where, const MPI_Comm &comm)
+    Distance<dim>
+    placed(const Distance<dim> &body, const Parameters<dim> &p, const std::string &where)
+    {
+      require_positive(p.scale, where, "Scale");
+      require(!p.centre_at_origin,
+              where + ": Centre at origin is for the shape \"triangle mesh\"; the others say themselves where they are.");
+      Tensor<1, dim == 2 ? 1 : 3> turn;
+      if constexpr (dim == 2)
+        turn[0] = 1;
+      else
+        turn = unit_vector(p.rotation_axis, where, "Rotation axis");
+      if (p.scale == 1 && p.rotation_angle == 0 && p.translation.norm() == 0)
+        return body;
+      return [body, scale = p.scale, back = transpose(rotation_by(p.rotation_angle * numbers::PI / 180 * turn)), shift = p.translation](
+               const Point<dim> &x) { return scale * body(Point<dim>(back * (x - shift) / scale)); };
+    }
+
+    template <int dim>
+    Distance<dim>
+    plain(const Parameters<dim> &p, const std::string &where)
     {
       switch (p.kind)
         {
           case ShapeKind::sphere:
-            return {sphere<dim>(p, where), {}};
+            return sphere<dim>(p, where);
           case ShapeKind::box:
-            return {box<dim>(p, where), {}};
+            return box<dim>(p, where);
           case ShapeKind::cylinder:
-            return {cylinder<dim>(p, where), {}};
+            return cylinder<dim>(p, where);
           case ShapeKind::capsule:
-            return {capsule<dim>(p, where), {}};
+            return capsule<dim>(p, where);
           case ShapeKind::torus:
-            return {torus<dim>(p, where), {}};
+            return torus<dim>(p, where);
           case ShapeKind::half_space:
-            return {half_space<dim>(p, where), {}};
-          case ShapeKind::triangle_mesh:
-            return triangle_mesh<dim>(p, where, comm);
+            return half_space<dim>(p, where);
           case ShapeKind::expression:
-            return {expression<dim>(p, where), {}};
+            return expression<dim>(p, where);
+          case ShapeKind::triangle_mesh:
+            break;
         }
       Assert(false, ExcInternalError());
       return {};
@@ -221,7 +241,10 @@ namespace treacle
     : sign(parameters.invert ? -1 : 1)
     , rounding(rounding)
   {
-    std::tie(distance, within) = make<dim>(parameters, where, comm);
+    if (parameters.kind == ShapeKind::triangle_mesh)
+      std::tie(distance, within) = triangle_mesh<dim>(parameters, where, comm);
+    else
+      distance = placed<dim>(plain<dim>(parameters, where), parameters, where);
   }
 
   template class Shape<2>;

@@ -133,6 +133,20 @@ check_triangle_mesh()
   tests::out() << "turned cube against box: " << (error < 1e-11 ? 0. : error)
                << std::endl;
 
+  // any shape is put where a triangle mesh would be
+  const std::string put =
+    "set Scale = 0.7\nset Rotation axis = 1, 2, 3\nset Rotation angle = 50\nset Translation = 0.2, 0.3, 0.4\n";
+  const Shape<3> put_cube = make<3>("set Shape = triangle mesh\nset File = cube.off\n" + put);
+  const Shape<3> put_box =
+    make<3>("set Shape = box\nset Lower corner = 0, 0, 0\nset Upper corner = 1, 1, 1\n" + put);
+  error = 0;
+  for (unsigned int sample = 0; sample < 1000; ++sample)
+    {
+      const Point<3> x = random_point<3>();
+      error            = std::max(error, std::abs(put_cube.signed_distance(x) - put_box.signed_distance(x)));
+    }
+  tests::out() << "placed cube against box: " << (error < 1e-11 ? 0. : error) << std::endl;
+
   const TriangleSurface surface("cube.off", Placement(), "here");
   const auto            corners = surface.bounding_box().get_boundary_points();
   tests::out() << "cube: " << surface.n_vertices() << " vertices, "
@@ -194,6 +208,8 @@ check_errors()
         "set Shape = triangle mesh",
         "set Shape = triangle mesh\nset File = cube.off\nset Scale = 0",
         "set Shape = triangle mesh\nset File = cube.off\nset Rotation axis = 0, 0, 0",
+        "set Shape = box\nset Scale = -1",
+        "set Centre at origin = true",
         "set Shape = expression",
         "set Shape = expression\nset Expression = x + foo",
         "set Shape = expression\nset Expression = sqrt(x",
@@ -213,6 +229,9 @@ start(const int, char **)
   show<2>("set Shape = box", p2);
   show<2>("set Shape = cylinder\nset Axis = 1, 1\nset Radius = 0.1", p2);
   show<2>("set Shape = capsule\nset Radius = 0.1", p2);
+  show<2>("set Shape = box\nset Lower corner = 0, 0\nset Upper corner = 2, 1\nset Scale = 0.25\n"
+          "set Rotation angle = 90\nset Translation = 0.5, 0.5",
+          p2);
   show<2>("set Shape = torus", p2);
   show<2>("set Shape = half space\nset Normal = 3, 4", p2);
   show<2>("set Shape = expression\nset Expression = max(x - 0.6, -y) + 0*pi", p2);

@@ -199,6 +199,9 @@ class BodiesTest(unittest.TestCase):
     """Distances of points that are known by looking."""
 
     def check(self, shape, distances, **parameters):
+        dim = len(next(iter(distances)))
+        parameters = {"Scale": [1], "Rotation axis": [0] * (dim - 1) + [1], "Rotation angle": [0], "Translation": [0] * dim,
+                      **parameters}
         solid = Solid(shape, parameters.get, lambda name: numpy.array(parameters[name], dtype=float), False, None)
         points, expected = zip(*distances.items())
         numpy.testing.assert_allclose(distance(solid, numpy.array(points, dtype=float)), expected, atol=1e-12)
@@ -220,6 +223,12 @@ class BodiesTest(unittest.TestCase):
     def test_2d(self):
         self.check("cylinder", {(0, 0): -1, (0, 3): 2, (6, 4): 3}, Radius=[1], Length=[12], Axis=[1, 0], Centre=[0, 0])
         self.check("torus", {(0, 0): 2, (0, 4): 0, (3, 0): -1}, Radius=[3], Centre=[0, 0], **{"Minor radius": [1]})
+
+    def test_placed(self):
+        corners = {"Lower corner": [0, 0], "Upper corner": [2, 1]}
+        self.check("box", {(3, 4): -2, (5, 11): 3, (8, 6): 3}, Scale=[4], Translation=[5, 0], **{"Rotation angle": [90], **corners})
+        self.check("capsule", {(1, 2, 3): -2, (1, 7, 3): 3, (1, 2, 8): 1}, Scale=[2], Translation=[1, 2, 3], Radius=[1], Start=[0, 0, 0],
+                   End=[0, 1, 0], **{"Rotation axis": [2, 0, 0], "Rotation angle": [90]})
 
 
 class StreamTest(InDirectory):

@@ -58,9 +58,11 @@ namespace treacle
 
     std::string    file;
     bool           centre_at_origin = false;
-    double         scale            = 1;
-    Tensor<1, dim> rotation_axis    = Point<dim>::unit_vector(dim - 1);
-    double         rotation_angle   = 0; // degrees
+
+    // the body is made with what is above, and put where this says
+    double         scale          = 1;
+    Tensor<1, dim> rotation_axis  = Point<dim>::unit_vector(dim - 1);
+    double         rotation_angle = 0; // degrees
     Tensor<1, dim> translation;
 
     /// Declare in the current subsection; @p prm writes into this object when it parses.
@@ -73,6 +75,9 @@ namespace treacle
 
     void
     add_triangle_mesh(ParameterHandler &prm);
+
+    void
+    add_placement(ParameterHandler &prm);
   };
 } // namespace treacle
 

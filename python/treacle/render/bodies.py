@@ -8,9 +8,8 @@ import numpy
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk
 
-from treacle.bodies import distance, extent
+from treacle.bodies import distance, extent, placement
 from treacle.errors import DataError
-from treacle.motion import rotation
 from treacle.render.poly_data import poly_data, with_normals
 
 LEAVES = 96  # of the longest side, for what is found by its distance
@@ -18,7 +17,18 @@ READERS = {".obj": vtk.vtkOBJReader, ".ply": vtk.vtkPLYReader, ".stl": vtk.vtkST
 
 
 def body(solid, run):
-    """What draws a solid where it was at t = 0. DataError where nothing here can."""
+    """The poly data of a solid where it was at t = 0. DataError where nothing here can."""
+    if solid.shape == "triangle mesh":
+        return with_normals(placed(triangles(Path(solid.text("File"))), solid), split=True)
+    if solid.shape in ("sphere", "cylinder", "box"):
+        source = plain(solid)
+        source.Update()
+        return placed(source.GetOutput(), solid)
+    return contour(solid, *extent(solid, run.lower, run.upper))
+
+
+def plain(solid):
+    """What makes a sphere, cylinder or box before it is placed."""
     number = solid.numbers
     if solid.shape == "sphere":
         source = vtk.vtkSphereSource()
@@ -37,11 +47,7 @@ def body(solid, run):
         tube.SetNumberOfSides(96)
         tube.CappingOn()
         return tube
-    if solid.shape == "box":
-        return cube(number("Lower corner"), number("Upper corner"))
-    if solid.shape == "triangle mesh":
-        return placed(triangles(Path(solid.text("File"))), solid)
-    return contour(solid, *extent(solid, run.lower, run.upper))
+    return cube(number("Lower corner"), number("Upper corner"))
 
 
 def cube(lower, upper):
@@ -54,8 +60,9 @@ def half_space(solid, run, matrix, shift):
     """Of a half space that has moved, what is in the box."""
     plane, planes, part = vtk.vtkPlane(), vtk.vtkPlaneCollection(), vtk.vtkClipClosedSurface()
     box = cube(run.lower, run.upper)  # by name: its port does not keep it alive
-    plane.SetOrigin(*(matrix @ solid.numbers("Centre") + shift))
-    plane.SetNormal(*-(matrix @ solid.numbers("Normal")))
+    turn, offset = placement(solid)
+    plane.SetOrigin(*(matrix @ (turn @ solid.numbers("Centre") + offset) + shift))
+    plane.SetNormal(*-(matrix @ turn @ solid.numbers("Normal")))
     planes.AddItem(plane)
     part.SetInputConnection(box.GetOutputPort())
     part.SetClippingPlanes(planes)
@@ -108,15 +115,13 @@ def triangles(path):
 
 
 def placed(data, solid):
-    """Poly data of a file where the parameters of a solid put it."""
-    number, transform, result = solid.numbers, vtk.vtkTransform(), vtk.vtkTransformPolyDataFilter()
-    axis = number("Rotation axis") / numpy.linalg.norm(number("Rotation axis"))
-    turn = number("Scale")[0] * rotation(numpy.radians(number("Rotation angle")[0]) * axis)
-    shift = number("Translation")
-    if solid.text("Centre at origin") == "true":
+    """Poly data of a body where the parameters put it."""
+    transform, result = vtk.vtkTransform(), vtk.vtkTransformPolyDataFilter()
+    turn, shift = placement(solid)
+    if solid.shape == "triangle mesh" and solid.text("Centre at origin") == "true":
         shift = shift - turn @ data.GetCenter()
     transform.SetMatrix([*numpy.hstack([turn, shift[:, None]]).ravel(), 0, 0, 0, 1])
     result.SetTransform(transform)
     result.SetInputData(data)
     result.Update()
-    return with_normals(result.GetOutput(), split=True)
+    return result.GetOutput()
