@@ -43,7 +43,7 @@ namespace treacle
     if (phi < -(AtWall::reach + AtWall::touching) * h || phi > farthest * h)
       return phi;
     const double s = solids(x);
-    if (s > AtWall::reach * h || (s >= 0 && phi > AtWall::touching * h))
+    if (s > AtWall::reach * h || (s < 0 ? phi <= 0 : phi > AtWall::touching * h))
       return phi;
     const Tensor<1, dim> gradient = gradient_of<dim>(solids, x, 0.01 * h);
     const double         slope    = gradient.norm();
@@ -56,7 +56,7 @@ namespace treacle
     if (s >= 0)
       return before(s / slope);
     const double depth = -s / slope;
-    if (phi <= 0 || depth > into_solids * h || f(x + (depth + AtWall::touching * h) * away) >= 0)
+    if (depth > into_solids * h || f(x + (depth + AtWall::touching * h) * away) >= 0)
       return phi;
     const double near = before(0.5 * depth), far = before(depth);
     return std::min(phi, near + 3 * (near - far));

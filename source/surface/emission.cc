@@ -45,30 +45,23 @@ namespace treacle
       const Mesh<dim>           &mesh = *state.mesh;
       const std::vector<double> &psi  = data.solid_distance(state.time);
       std::string                error;
-      std::vector<typename EmittedVolume<dim>::Vertex> vertices(mesh.node_position.size());
-      const EmittedVolume<dim>                         emitted(filling);
-      Vector                                           filled(mesh.nodes);
-      for (LocalIndex node = 0; node < vertices.size(); ++node)
+      EmittedVolume<dim>         emitted(filling);
+      Vector                     filled(mesh.nodes);
+      for (LocalIndex node = 0; node < mesh.node_position.size(); ++node)
         keep_error(error, [&] {
-          vertices[node] = emitted.vertex(
-            mesh.node_position[node], state.phi.local_element(node), psi[node], state.v.value(node));
+          const auto &vertex =
+            emitted.add(mesh.node_position[node], state.phi.local_element(node), psi[node], state.v.value(node));
           if (node < mesh.n_owned_nodes())
-            filled.local_element(node) = vertices[node].phi.after;
+            filled.local_element(node) = vertex.phi.after;
         });
       throw_first(mesh.communicator(), error);
       std::vector<Parcel<dim>> inflow;
       for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
         if (const auto &nodes = mesh.cell_nodes[c];
             std::any_of(nodes.begin(), nodes.end(), [&](const LocalIndex node) {
-              return vertices[node].phi.inside != vertices[node].phi.kept;
+              return emitted[node].phi.inside != emitted[node].phi.kept;
             }))
-          {
-            typename EmittedVolume<dim>::Vertices v;
-            std::transform(nodes.begin(), nodes.end(), v.begin(), [&](const LocalIndex node) {
-              return vertices[node];
-            });
-            keep_error(error, [&] { inflow.push_back({barycentre<dim>(mesh.cell_vertices(c)), emitted(v)}); });
-          }
+          keep_error(error, [&] { inflow.push_back({barycentre<dim>(mesh.cell_vertices(c)), emitted(nodes)}); });
       throw_first(mesh.communicator(), error);
       filled.update_ghost_values();
       state.phi = filled;

@@ -6,35 +6,31 @@
 
 #include <algorithm>
 #include <numeric>
-#include <unordered_map>
 
 namespace treacle
 {
   namespace
   {
-    /// A simplex that is halved again and again. What is in the middle of two vertices, which several parts share, is found once.
+    /// A simplex that is halved again and again.
     template <int dim>
     class HalvedSimplex
     {
     public:
       using Vertex = typename EmittedVolume<dim>::Vertex;
+      using Part   = typename EmittedVolume<dim>::Vertices;
 
-      HalvedSimplex(const EmittedVolume<dim> &emitted, const typename EmittedVolume<dim>::Vertices &v)
-        : emitted(emitted)
-        , vertices(v.begin(), v.end())
+      explicit HalvedSimplex(EmittedVolume<dim> &vertices)
+        : vertices(vertices)
       {}
 
       /// (m^dim)
       double
-      volume()
+      volume(const Part &whole)
       {
-        Part whole;
-        std::iota(whole.begin(), whole.end(), 0);
         return after(whole, dim);
       }
 
     private:
-      using Part = std::array<unsigned int, dim + 1>; ///< of its vertices
 
       struct LongestEdge
       {
@@ -72,25 +68,11 @@ namespace treacle
         return std::all_of(v.begin(), v.end(), is_in_solid) || std::all_of(v.begin(), v.end(), is_alike);
       }
 
-      unsigned int
-      middle(const unsigned int i, const unsigned int j)
-      {
-        const auto [entry, is_new] =
-          middles.try_emplace(std::uint64_t(std::min(i, j)) << 32 | std::max(i, j), vertices.size());
-        if (is_new)
-          {
-            const Vertex &a = vertices[i], &b = vertices[j];
-            vertices.push_back(
-              emitted.vertex(a.x + 0.5 * (b.x - a.x), 0.5 * (a.old + b.old), 0.5 * (a.psi + b.psi), 0.5 * (a.v + b.v)));
-          }
-        return entry->second;
-      }
-
       std::array<Part, 2>
       halved(const Part &v, const LongestEdge &edge)
       {
         std::array<Part, 2> halves{{v, v}};
-        halves[0][edge.i] = halves[1][edge.j] = middle(v[edge.i], v[edge.j]);
+        halves[0][edge.i] = halves[1][edge.j] = vertices.middle(v[edge.i], v[edge.j]);
         return halves;
       }
 
@@ -165,17 +147,28 @@ namespace treacle
         return liquid_moments<dim>(x, inside, psi).volume - liquid_moments<dim>(x, kept, psi).volume;
       }
 
-      const EmittedVolume<dim>                       &emitted;
-      std::vector<Vertex>                             vertices;
-      std::unordered_map<std::uint64_t, unsigned int> middles;
+      EmittedVolume<dim> &vertices;
     };
   } // namespace
 
   template <int dim>
-  double
-  EmittedVolume<dim>::operator()(const Vertices &v) const
+  unsigned int
+  EmittedVolume<dim>::middle(const unsigned int i, const unsigned int j)
   {
-    return HalvedSimplex<dim>(*this, v).volume();
+    const auto [entry, is_new] = middles.try_emplace(std::uint64_t(std::min(i, j)) << 32 | std::max(i, j), vertices.size());
+    if (is_new)
+      {
+        const Vertex a = vertices[i], b = vertices[j];
+        add(Point<dim>(0.5 * (a.x + Tensor<1, dim>(b.x))), 0.5 * (a.old + b.old), 0.5 * (a.psi + b.psi), 0.5 * (a.v + b.v));
+      }
+    return entry->second;
+  }
+
+  template <int dim>
+  double
+  EmittedVolume<dim>::operator()(const Vertices &simplex)
+  {
+    return HalvedSimplex<dim>(*this).volume(simplex);
   }
 
   template class EmittedVolume<2>;

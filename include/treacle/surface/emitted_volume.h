@@ -6,11 +6,14 @@
 
 #include <treacle/surface/emitter_filling.h>
 
+#include <unordered_map>
+
 namespace treacle
 {
-  /// What an emitter adds in a simplex. In a step it may be much thinner than a leaf, which functions that are linear between nodes show
-  /// 20 to 50 % too thick or too thin at edges and corners of the emitter: so the simplex is halved where they matter, along each edge about once,
-  /// and as long as that changes its part, until edges are an eighth as long.
+  /// What an emitter adds in simplices. In a step it may be much thinner than a leaf, which functions that are linear between nodes show
+  /// 20 to 50 % too thick or too thin at edges and corners of the emitter: so a simplex is halved where they matter, along each edge about once,
+  /// and as long as that changes its part, until edges are an eighth as long. What is in the middle of two vertices, which several parts and
+  /// simplices share, is found once.
   template <int dim>
   class EmittedVolume
   {
@@ -28,20 +31,34 @@ namespace treacle
       Tensor<1, dim>                    v;   ///< of the liquid (m/s)
       typename EmitterFilling<dim>::Phi phi;
     };
-    using Vertices = std::array<Vertex, dim + 1>;
+    using Vertices = std::array<unsigned int, dim + 1>; ///< their indices
 
-    Vertex
-    vertex(const Point<dim> &x, const double old, const double psi, const Tensor<1, dim> &v) const
+    /// The next one, with the values there. Those of the simplices come first.
+    const Vertex &
+    add(const Point<dim> &x, const double old, const double psi, const Tensor<1, dim> &v)
     {
-      return {x, old, psi, v, filling.phi(x, old, v)};
+      vertices.push_back({x, old, psi, v, filling.phi(x, old, v)});
+      return vertices.back();
     }
+
+    const Vertex &
+    operator[](const unsigned int i) const
+    {
+      return vertices[i];
+    }
+
+    /// The index of what is in the middle of two.
+    unsigned int
+    middle(const unsigned int i, const unsigned int j);
 
     /// (m^dim)
     double
-    operator()(const Vertices &v) const;
+    operator()(const Vertices &simplex);
 
   private:
-    const EmitterFilling<dim> &filling;
+    const EmitterFilling<dim>                      &filling;
+    std::vector<Vertex>                             vertices;
+    std::unordered_map<std::uint64_t, unsigned int> middles; ///< by two indices
   };
 } // namespace treacle
 
