@@ -46,8 +46,13 @@ namespace treacle
         told_full = true;
         log.line("warning: the container is full. Emitters pour no more, unless solids make room.");
       }
+    const double time = liquid.state->time;
+    for (const unsigned int k : domain.scene.solids_gone(time))
+      if (told_gone.insert(k).second)
+        log.line("warning: " + numbered("Solid", k) + " has left the box at t = " + digits(time) +
+                 " s, where it does nothing. If it should not, change its motion, or enlarge the box (Domain/Lower corner and Upper corner).");
     if (domain.scene.has_solids())
-      for (const unsigned int k : thin_solids(domain, liquid.state->time))
+      for (const unsigned int k : thin_solids(domain, time))
         if (told_solids.insert(k).second)
           log.line("warning: " + numbered("Solid", k) +
                    " is thinner than a cell where liquid is on it, which leaks through. Make it thicker, or " + remedy);

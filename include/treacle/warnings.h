@@ -24,7 +24,7 @@ namespace treacle
     void
     of_step(const StepInfo<dim> &info, const double drift);
 
-    /// Of what is thinner than cells, and of emitters that have no room. Collective.
+    /// Of what is thinner than cells, emitters that have no room, and solids that are gone. Collective.
     template <int dim>
     void
     of_frame(const Liquid<dim> &liquid);
@@ -35,7 +35,7 @@ namespace treacle
     double                 told_drift = 0;
     double                 told_thin  = 0; ///< part of the liquid
     bool                   told_full = false;
-    std::set<unsigned int> told_solids;
+    std::set<unsigned int> told_solids, told_gone;
   };
 } // namespace treacle
 

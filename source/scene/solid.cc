@@ -45,8 +45,7 @@ namespace treacle
                     const std::string      &where,
                     const BoundingBox<dim> &box,
                     const MPI_Comm         &comm)
-    : where(where)
-    , box(box)
+    : box(box)
     , shape(prm.shape, where, rounding_in(box), comm)
     , level_beside(prm.level)
     , motion(prm.motion, where)
@@ -110,19 +109,23 @@ namespace treacle
   void
   Solid<dim>::check(const double t) const
   {
+    if (motion.is_moving())
+      motion.at(t);
+  }
+
+  template <int dim>
+  bool
+  Solid<dim>::has_left(const double t) const
+  {
     if (!motion.is_moving())
-      return;
-    // on all ranks, whether or not they have cells: the motion may not be finite
-    const Pose<dim> &pose = motion.at(t);
-    const auto is_in_box = [&](const Point<dim> &x) { return box.point_inside(pose.now(x)); };
+      return false;
+    const Pose<dim> &pose      = motion.at(t);
+    const auto       is_in_box = [&](const Point<dim> &x) { return box.point_inside(pose.now(x)); };
     if (sample.empty() || std::any_of(sample.begin(), sample.end(), is_in_box))
-      return;
+      return false;
     // others than those of the start may be: a half space is a belt
     const std::vector<Point<dim>> points = grid(box);
-    require(std::any_of(points.begin(), points.end(), [&](const Point<dim> &x) { return signed_distance(x, t) < 0; }),
-            where + " has left the box at t = " + digits(t) +
-              " s: change its motion, stop the run earlier (End time), or enlarge the box "
-              "(Domain/Lower corner and Upper corner).");
+    return std::none_of(points.begin(), points.end(), [&](const Point<dim> &x) { return signed_distance(x, t) < 0; });
   }
 
   template class Solid<2>;

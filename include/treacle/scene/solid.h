@@ -66,17 +66,19 @@ namespace treacle
     Point<dim>
     centre(const double t) const;
 
-    /// Throws a UserError if it moves, was in the box, and has left it at t, or if its
-    /// motion is not finite then.
+    /// Throws a UserError if its motion is not finite at t.
     void
     check(const double t) const;
+
+    /// Was it in the box at first, and is not at t?
+    bool
+    has_left(const double t) const;
 
   private:
     /// Where the material point that is at @p x at t was at t = 0.
     Point<dim>
     at_start(const Point<dim> &x, const double t) const;
 
-    const std::string      where;
     const BoundingBox<dim> box;
     const Shape<dim>       shape;
     const unsigned int     level_beside;

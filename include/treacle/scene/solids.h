@@ -68,10 +68,13 @@ namespace treacle
     Point<dim>
     solid_centre(const unsigned int k, const double t) const;
 
-    /// Throws a UserError if a moving solid has left the box, or its motion is not finite:
-    /// for all ranks together, before some of them ask where solids are at t.
+    /// Throws a UserError if the motion of one is not finite: for all ranks together, before some of them ask where solids are at t.
     void
     check_solids(const double t) const;
+
+    /// Which have left the box?
+    std::vector<unsigned int>
+    solids_gone(const double t) const;
 
   private:
     /// Of one at least, with its distance (m).
