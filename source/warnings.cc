@@ -8,6 +8,28 @@
 
 namespace treacle
 {
+  namespace
+  {
+    /// Of each solid 1 if a cell may meet it, else 0. Collective.
+    template <int dim>
+    std::vector<double>
+    solids_in_box(const LiquidDomain<dim> &domain, const double time)
+    {
+      const Mesh<dim>    &mesh = domain.mesh;
+      std::vector<double> result(domain.scene.n_solids());
+      std::string         error;
+      keep_error(error, [&] {
+        for (unsigned int k = 0; k < result.size(); ++k)
+          for (LocalIndex c = 0; c < mesh.n_owned_cells() && result[k] == 0; ++c)
+            result[k] =
+              domain.scene.solid_distance(k, barycentre<dim>(mesh.cell_vertices(c)), time) < mesh.cell_size[c];
+      });
+      throw_first(mesh.communicator(), error);
+      Utilities::MPI::max(result, mesh.communicator(), result);
+      return result;
+    }
+  } // namespace
+
   Warnings::Warnings(Log &log, std::string remedy)
     : log(log)
     , remedy(std::move(remedy))
@@ -47,10 +69,16 @@ namespace treacle
         log.line("warning: the container is full. Emitters pour no more, unless solids make room.");
       }
     const double time = liquid.state->time;
-    for (const unsigned int k : domain.scene.solids_gone(time))
-      if (told_gone.insert(k).second)
-        log.line("warning: " + numbered("Solid", k) + " has left the box at t = " + digits(time) +
-                 " s, where it does nothing. If it should not, change its motion, or enlarge the box (Domain/Lower corner and Upper corner).");
+    if (domain.scene.has_moving_solids())
+      {
+        const std::vector<double> in_box = solids_in_box(domain, time);
+        for (unsigned int k = 0; k < were_in_box.size(); ++k)
+          if (in_box[k] < were_in_box[k])
+            log.line("warning: " + numbered("Solid", k) + " has left the box by t = " + digits(time) +
+                     " s. Outside it does nothing; if that is not meant, change its motion, or enlarge the box (Domain/Lower corner and Upper "
+                     "corner).");
+        were_in_box = in_box;
+      }
     if (domain.scene.has_solids())
       for (const unsigned int k : thin_solids(domain, time))
         if (told_solids.insert(k).second)

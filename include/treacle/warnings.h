@@ -35,7 +35,8 @@ namespace treacle
     double                 told_drift = 0;
     double                 told_thin  = 0; ///< part of the liquid
     bool                   told_full = false;
-    std::set<unsigned int> told_solids, told_gone;
+    std::set<unsigned int> told_solids;
+    std::vector<double>    were_in_box; ///< solids, 1 or 0
   };
 } // namespace treacle
 

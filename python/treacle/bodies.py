@@ -47,10 +47,12 @@ def to_expression(x, text):
 
 
 def placement(solid):
-    """A matrix (dim, dim) and a vector (dim,), m: what the shape has at x is at matrix @ x + vector at t = 0."""
-    shift, angle = solid.numbers("Translation"), numpy.radians(solid.numbers("Rotation angle"))
-    axis = solid.numbers("Rotation axis") / norm(solid.numbers("Rotation axis"))
-    return solid.numbers("Scale")[0] * rotation(angle * axis if len(shift) == 3 else angle), shift
+    """A matrix (dim, dim) and a vector (dim,), m: what the shape (as it is given, or centred at the origin) has at x is at matrix @ x +
+    vector at t = 0."""
+    shift, turn = solid.numbers("Translation"), numpy.radians(solid.numbers("Rotation angle"))
+    if len(shift) == 3:
+        turn = turn * solid.numbers("Rotation axis") / norm(solid.numbers("Rotation axis"))
+    return solid.numbers("Scale")[0] * rotation(turn), shift
 
 
 def distance(solid, x):

@@ -42,7 +42,7 @@ namespace treacle
     add_plain_bodies(prm);
     prm.add_parameter("Expression",
                       expression,
-                      "expression: a formula in x,y,z (2D: x,y) (m) that is near the "
+                      "expression: a formula in x,y,z (2D: x,y) (m, before what is below moves the body) that is near the "
                       "surface like a distance (m), negative inside.");
     add_triangle_mesh(prm);
     add_placement(prm);
@@ -94,7 +94,7 @@ namespace treacle
   ShapeParameters<dim>::add_placement(ParameterHandler &prm)
   {
     prm.add_parameter("Scale", scale, "Multiply the body's coordinates by this (triangle mesh: m per unit of the file).");
-    prm.add_parameter("Rotation axis", rotation_axis, "Then rotate it about this direction (in 2D there is but one) ...");
+    prm.add_parameter("Rotation axis", rotation_axis, "Then rotate it about this direction (2D: not used) ...");
     prm.add_parameter("Rotation angle", rotation_angle, "... through the origin, by this angle (degrees, right-handed).");
     prm.add_parameter("Translation", translation, "Last move it by this (m).");
   }

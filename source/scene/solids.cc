@@ -155,17 +155,6 @@ namespace treacle
       solid.check(t);
   }
 
-  template <int dim>
-  std::vector<unsigned int>
-  Solids<dim>::solids_gone(const double t) const
-  {
-    std::vector<unsigned int> gone;
-    for (unsigned int k = 0; k < solids.size(); ++k)
-      if (solids[k].has_left(t))
-        gone.push_back(k);
-    return gone;
-  }
-
   template class Solids<2>;
   template class Solids<3>;
 } // namespace treacle

@@ -31,7 +31,6 @@ namespace treacle
       }
 
     private:
-
       struct LongestEdge
       {
         unsigned int i = 0, j = 0;
@@ -155,13 +154,12 @@ namespace treacle
   unsigned int
   EmittedVolume<dim>::middle(const unsigned int i, const unsigned int j)
   {
-    const auto [entry, is_new] = middles.try_emplace(std::uint64_t(std::min(i, j)) << 32 | std::max(i, j), vertices.size());
-    if (is_new)
-      {
-        const Vertex a = vertices[i], b = vertices[j];
-        add(Point<dim>(0.5 * (a.x + Tensor<1, dim>(b.x))), 0.5 * (a.old + b.old), 0.5 * (a.psi + b.psi), 0.5 * (a.v + b.v));
-      }
-    return entry->second;
+    const std::uint64_t edge = std::uint64_t(std::min(i, j)) << 32 | std::max(i, j);
+    if (const auto known = middles.find(edge); known != middles.end())
+      return known->second;
+    const Vertex a = vertices[i], b = vertices[j];
+    add(Point<dim>(0.5 * (a.x + Tensor<1, dim>(b.x))), 0.5 * (a.old + b.old), 0.5 * (a.psi + b.psi), 0.5 * (a.v + b.v));
+    return middles[edge] = vertices.size() - 1;
   }
 
   template <int dim>

@@ -136,16 +136,6 @@ show_many_surfaces(const bool is_last_inverted)
   tests::out() << n << " surfaces, of 5000 points " << n_inside << " inside: wrong " << n_wrong << std::endl;
 }
 
-/// A solid may go on without end, or be gone.
-template <int dim>
-void
-show_leaving(const std::string &solid)
-{
-  const std::string velocity = dim == 2 ? "1; 0" : "1; 0; 0";
-  const Scene<dim>  scene    = make<dim>(in("Solid 1", "Velocity = " + velocity) + solid, 1, 1);
-  tests::out() << dim << "D: has " << (scene.solids_gone(20).empty() ? "not " : "") << "left the box" << std::endl;
-}
-
 template <int dim>
 void
 show_walls(const std::string &condition)
@@ -231,11 +221,6 @@ start(const int, char **)
   show_many_surfaces(true);
 
   tests::out() << "solids after 20 m" << std::endl;
-  show_leaving<2>(in("Solid 1", "Shape = half space") + in("Solid 1", "Normal = 0, 1") + in("Solid 1", "Centre = 0, 0.2"));
-  show_leaving<3>(in("Solid 1", "Shape = half space") + in("Solid 1", "Centre = 0, 0, 0.2"));
-  show_leaving<2>(in("Solid 1", "Shape = half space") + in("Solid 1", "Normal = -1, 0"));
-  show_leaving<3>(in("Solid 1", "Radius = 0.2"));
-  show_leaving<2>(in("Solid 1", "Shape = expression") + in("Solid 1", "Expression = y - 0.3 - 0.1*sin(x)"));
 
   tests::out() << "errors" << std::endl;
   show_error<3>(in("Domain", "Wall condition = sticky"));

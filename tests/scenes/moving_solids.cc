@@ -8,6 +8,7 @@
 // 0.05 % of the volume, halves as much as wholes, and are not taken for it.
 // A belt that moves up out of the floor, of the box or of a solid, beside a pool: where it leaves the floor it sweeps nothing. (Else it drains
 // what is under its way in the cell there, wherever the surface is.)
+// A rod narrower than a leaf that leaves the box, and one of which a part stays.
 // Argument: level.
 
 #include "../tests.h"
@@ -109,6 +110,24 @@ leave_floors(const MPI_Comm &comm)
         << bounded(won_beside_belt<2>(comm, 0.15, 1000) - won_beside_belt<2>(comm, 0.15), 1e-6) << std::endl;
 }
 
+/// What is narrower than a leaf is in the box as long as a part of it is.
+template <int dim>
+void
+leave_box(const MPI_Comm &comm, const double way)
+{
+  const std::string z = dim == 2 ? "" : "0.5, ", end = dim == 2 ? "" : "0; ", up = std::to_string(way) + " * t";
+  const auto        rows = run_scene<dim>(comm,
+                                   "set End time = 1\nset Frame interval = 0.25\nset Maximum time step = 0.25\nset Maximum CFL number = 20\n"
+                                          "subsection Mesh\nset Surface level = 4\nend\nsubsection Material\nset Viscosity = 1e6\nend\n"
+                                          "subsection Liquid 1\nset Shape = half space\nset Normal = " +
+                                     std::string(dim == 2 ? "0, 1" : "0, 0, 1") + "\nset Centre = 0.5, " + z +
+                                     "0.2\nend\nsubsection Solid 1\nset Shape = capsule\nset Radius = 0.01\nset Start = 0.52, " + z +
+                                     "0.1\nset End = 0.52, " + z + "0.7\nset Displacement = 0; " + end + up + "\nend\n",
+                                   1);
+  out() << dim << "D: rod, by " << way << " m: t = " << rows.back().at("Time (s)")
+        << (has_logged(comm, dim, "Solid 1 has left the box") ? ", has left" : ", is there still") << std::endl;
+}
+
 void
 start(const int argc, char **argv)
 {
@@ -124,6 +143,11 @@ start(const int argc, char **argv)
       }
     stir(comm);
     leave_floors(comm);
+    for (const double way : {0.6, 2.})
+      {
+        leave_box<2>(comm, way);
+        leave_box<3>(comm, way);
+      }
   });
 }
 

@@ -70,21 +70,14 @@ namespace treacle
     void
     check(const double t) const;
 
-    /// Was it in the box at first, and is not at t?
-    bool
-    has_left(const double t) const;
-
   private:
     /// Where the material point that is at @p x at t was at t = 0.
     Point<dim>
     at_start(const Point<dim> &x, const double t) const;
 
-    const BoundingBox<dim> box;
-    const Shape<dim>       shape;
-    const unsigned int     level_beside;
-    RigidMotion<dim>       motion;
-    /// Points of it that are in the box at t = 0, if it moves.
-    std::vector<Point<dim>> sample;
+    const Shape<dim>   shape;
+    const unsigned int level_beside;
+    RigidMotion<dim>   motion;
   };
 } // namespace treacle
 

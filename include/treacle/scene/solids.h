@@ -72,10 +72,6 @@ namespace treacle
     void
     check_solids(const double t) const;
 
-    /// Which have left the box?
-    std::vector<unsigned int>
-    solids_gone(const double t) const;
-
   private:
     /// Of one at least, with its distance (m).
     std::pair<const Solid<dim> *, double>
