@@ -118,7 +118,7 @@ leave_box(const MPI_Comm &comm, const double way)
   const std::string z = dim == 2 ? "" : "0.5, ", end = dim == 2 ? "" : "0; ", up = std::to_string(way) + " * t";
   const auto        rows = run_scene<dim>(comm,
                                    "set End time = 1\nset Frame interval = 0.25\nset Maximum time step = 0.25\nset Maximum CFL number = 20\n"
-                                          "subsection Mesh\nset Surface level = 4\nend\nsubsection Material\nset Viscosity = 1e6\nend\n"
+                                          "subsection Mesh\nset Surface level = 3\nset Interior level = 2\nset Air level = 2\nend\nsubsection Material\nset Viscosity = 1e6\nend\n"
                                           "subsection Liquid 1\nset Shape = half space\nset Normal = " +
                                      std::string(dim == 2 ? "0, 1" : "0, 0, 1") + "\nset Centre = 0.5, " + z +
                                      "0.2\nend\nsubsection Solid 1\nset Shape = capsule\nset Radius = 0.01\nset Start = 0.52, " + z +
