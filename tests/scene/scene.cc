@@ -220,8 +220,6 @@ start(const int, char **)
   show_many_surfaces(false);
   show_many_surfaces(true);
 
-  tests::out() << "solids after 20 m" << std::endl;
-
   tests::out() << "errors" << std::endl;
   show_error<3>(in("Domain", "Wall condition = sticky"));
   show_error<3>(in("Domain", "Wall condition ="));

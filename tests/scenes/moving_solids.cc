@@ -8,7 +8,7 @@
 // 0.05 % of the volume, halves as much as wholes, and are not taken for it.
 // A belt that moves up out of the floor, of the box or of a solid, beside a pool: where it leaves the floor it sweeps nothing. (Else it drains
 // what is under its way in the cell there, wherever the surface is.)
-// A rod narrower than a leaf that leaves the box, and one of which a part stays.
+// Solids that leave the box, of which a part stays, and that go on without end.
 // Argument: level.
 
 #include "../tests.h"
@@ -110,22 +110,41 @@ leave_floors(const MPI_Comm &comm)
         << bounded(won_beside_belt<2>(comm, 0.15, 1000) - won_beside_belt<2>(comm, 0.15), 1e-6) << std::endl;
 }
 
-/// What is narrower than a leaf is in the box as long as a part of it is.
+/// A solid in a pool, a text, moves by a way (m) in the direction @p d: is it in the box still?
 template <int dim>
 void
-leave_box(const MPI_Comm &comm, const double way)
+leave_box(const MPI_Comm &comm, const std::string &name, const std::string &solid, const unsigned int d, const double way)
 {
-  const std::string z = dim == 2 ? "" : "0.5, ", end = dim == 2 ? "" : "0; ", up = std::to_string(way) + " * t";
-  const auto        rows = run_scene<dim>(comm,
-                                   "set End time = 1\nset Frame interval = 0.25\nset Maximum time step = 0.25\nset Maximum CFL number = 20\n"
-                                          "subsection Mesh\nset Surface level = 3\nset Interior level = 2\nset Air level = 2\nend\nsubsection Material\nset Viscosity = 1e6\nend\n"
-                                          "subsection Liquid 1\nset Shape = half space\nset Normal = " +
-                                     std::string(dim == 2 ? "0, 1" : "0, 0, 1") + "\nset Centre = 0.5, " + z +
-                                     "0.2\nend\nsubsection Solid 1\nset Shape = capsule\nset Radius = 0.01\nset Start = 0.52, " + z +
-                                     "0.1\nset End = 0.52, " + z + "0.7\nset Displacement = 0; " + end + up + "\nend\n",
-                                   1);
-  out() << dim << "D: rod, by " << way << " m: t = " << rows.back().at("Time (s)")
+  std::string motion;
+  for (unsigned int e = 0; e < dim; ++e)
+    motion += (e > 0 ? "; " : "") + (e == d ? std::to_string(way) + " * t" : std::string("0"));
+  const auto rows = run_scene<dim>(
+                 comm,
+                 "set End time = 1\nset Frame interval = 0.25\nset Maximum time step = 0.25\nset Maximum CFL number = 20\n"
+                 "subsection Mesh\nset Surface level = 3\nset Interior level = 2\nset Air level = 2\nend\n"
+                 "subsection Material\nset Viscosity = 1e6\nend\nsubsection Liquid 1\nset Shape = half space\nset Centre = 0.5, " +
+                   std::string(dim == 2 ? "0.4\nset Normal = 0, 1" : "0.5, 0.4\nset Normal = 0, 0, 1") + "\nend\nsubsection Solid 1\n" + solid +
+                   "\nset Displacement = " + motion + "\nend\n",
+                 1);
+  out() << dim << "D: " << name << ", by " << way << " m: t = " << rows.back().at("Time (s)")
         << (has_logged(comm, dim, "Solid 1 has left the box") ? ", has left" : ", is there still") << std::endl;
+}
+
+/// What is narrower than a leaf is in the box as long as a part of it is, and what moves along itself goes on without end.
+void
+leave_box(const MPI_Comm &comm)
+{
+  const std::string rod = "set Shape = capsule\nset Radius = 0.01\n", half_space = "set Shape = half space\n";
+  for (const double way : {0.6, 2.})
+    {
+      leave_box<2>(comm, "rod", rod + "set Start = 0.52, 0.1\nset End = 0.52, 0.7", 1, way);
+      leave_box<3>(comm, "rod", rod + "set Start = 0.52, 0.5, 0.1\nset End = 0.52, 0.5, 0.7", 2, way);
+    }
+  leave_box<2>(comm, "belt", half_space + "set Normal = 0, 1\nset Centre = 0, 0.2", 0, 20);
+  leave_box<3>(comm, "belt", half_space + "set Centre = 0, 0, 0.2", 0, 20);
+  leave_box<2>(comm, "wall", half_space + "set Normal = -1, 0", 0, 20);
+  leave_box<3>(comm, "ball", "set Radius = 0.2", 0, 20);
+  leave_box<2>(comm, "waves", "set Shape = expression\nset Expression = y - 0.3 - 0.1*sin(x)", 0, 20);
 }
 
 void
@@ -143,11 +162,7 @@ start(const int argc, char **argv)
       }
     stir(comm);
     leave_floors(comm);
-    for (const double way : {0.6, 2.})
-      {
-        leave_box<2>(comm, way);
-        leave_box<3>(comm, way);
-      }
+    leave_box(comm);
   });
 }
 
