@@ -72,7 +72,7 @@ namespace treacle
     , scene(prm.scene, comm)
     , movement(prm.transport, scene)
     , time_step(movement.time_step)
-    , dynamics(prm.dynamics, prm.steps, time_step.longest())
+    , dynamics(prm.dynamics, prm.steps, time_step.longest_free())
     , stepping(scene, prm.steps, prm.liquid_domain, movement, dynamics, timing)
     , mesh_writer(prm.mesh_writer)
     , surface_writer(prm.surface_writer)

@@ -4,6 +4,7 @@
 #include <treacle/base/choice.h>
 #include <treacle/base/exchange.h>
 #include <treacle/base/maximum.h>
+#include <treacle/fields/strain_rate.h>
 #include <treacle/transport/time_step.h>
 
 namespace treacle
@@ -24,8 +25,9 @@ namespace treacle
                       Patterns::Double(1e-3, 100));
     prm.add_parameter("Maximum time step",
                       maximum,
-                      "Largest size of a step (s).",
-                      Patterns::Double(1e-12));
+                      "Largest size of a step (s). 0: 0.04 s, but where viscosity holds the liquid any that CFL number "
+                      "and frames allow, in which the velocity changes by no more than a quarter of itself.",
+                      Patterns::Double(0));
     add_choice<Scheme>(
       prm,
       "Time scheme",
@@ -120,6 +122,23 @@ namespace treacle
       return {largest(comm, fastest), squares[1] > 0 ? std::sqrt(squares[0] / squares[1]) : 0.};
     }
 
+    /// Does viscosity take so much in a step that the liquid knows nothing of how it moved before? Collective.
+    template <int dim>
+    bool
+    forgets(const LiquidDomain<dim> &domain, const NodeVector<dim> &v, const double dt)
+    {
+      constexpr double times = 10; // the kinetic energy
+      Tensor<1, 2>     energy;     // what there is, and what viscosity takes (J)
+      for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
+        if (domain.is_active_node[node])
+          energy[0] += 0.5 * domain.node_mass[node] * v.value(node).norm_square();
+      for (LocalIndex c = 0; c < domain.mesh.n_owned_cells(); ++c)
+        if (domain.liquid_volume[c] > 0)
+          energy[1] += 2 * domain.viscosity[c] * domain.liquid_volume[c] * squared_strain_rate(domain, c, v) * dt;
+      energy = Utilities::MPI::sum(energy, domain.mesh.communicator());
+      return energy[1] > times * energy[0];
+    }
+
     /// Does viscosity carry what happens at the surface in a step? Waves as short as a leaf are
     /// gone then, and the nodes hold the faces (Hybrid). Collective.
     template <int dim>
@@ -165,7 +184,7 @@ namespace treacle
                       const Motion            &motion) const
   {
     using Bound = StepSize::Bound;
-    StepSize size{prm.maximum, Bound::maximum, prm.maximum};
+    StepSize size{longest_free(), Bound::maximum, longest_free()};
     if (motion.moves)
       find_longest(state, domain, motion, size);
     // two steps of sizes further apart have only first order
@@ -195,11 +214,12 @@ namespace treacle
     // the speed at the end of the step counts: v dt + g dt^2 = CFL h
     const double v = maximum_speed(state, domain), g = maximum_gravity(domain, state.time);
     size.falling   = longest_step(state, domain, g, prm.cfl);
-    if (size.falling >= size.dt)
-      return;
-    size.dt    = size.falling;
-    size.bound = g * size.dt > v ? StepSize::Bound::weight : StepSize::Bound::cfl;
-    if (!motion.is_coupled || !state.before || !state.before->v ||
+    if (size.falling < size.dt)
+      {
+        size.dt    = size.falling;
+        size.bound = g * size.dt > v ? StepSize::Bound::weight : StepSize::Bound::cfl;
+      }
+    if (longest_held() <= size.dt || !motion.is_coupled || !state.before || !state.before->v ||
         !is_viscous_at_surface(domain, size.dt))
       return;
     const Change change    = change_before(state, domain);
@@ -208,9 +228,9 @@ namespace treacle
     const std::array<std::pair<double, StepSize::Bound>, 3> bounds{
       {{by_change, StepSize::Bound::change},
        {longest_step(state, domain, a, prm.cfl), StepSize::Bound::cfl},
-       {prm.maximum, StepSize::Bound::maximum}}};
+       {longest_held(), StepSize::Bound::maximum}}};
     const auto &[dt, bound] = *std::min_element(bounds.begin(), bounds.end());
-    if (dt > size.dt)
+    if (dt > size.dt && (prm.maximum > 0 || forgets(domain, state.v, dt)))
       std::tie(size.dt, size.bound) = std::tie(dt, bound);
   }
 
@@ -220,7 +240,7 @@ namespace treacle
   {
     const double v  = maximum_speed(state, domain);
     const double g  = maximum_gravity(domain, state.time);
-    const double dt = longest();
+    const double dt = longest_held();
     return std::min((v + g * dt) * dt + 4 * domain.mesh.surface_size(), largest_reach(domain.mesh));
   }
 

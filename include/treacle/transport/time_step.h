@@ -52,7 +52,7 @@ namespace treacle
       double end_time       = 1;
       double frame_interval = 0.04;
       double cfl            = 3;
-      double maximum        = 0.04;
+      double maximum        = 0; ///< 0: as longest_free() and longest_held() say
 
       Scheme scheme = Scheme::bdf2;
 
@@ -106,11 +106,18 @@ namespace treacle
       return prm.scheme == Scheme::bdf2;
     }
 
-    /// The longest step that there may be (s).
+    /// The longest step that there may be, of liquid that moves as it likes (s).
     double
-    longest() const
+    longest_free() const
     {
-      return std::min(prm.maximum, prm.frame_interval);
+      return std::min(prm.maximum > 0 ? prm.maximum : default_maximum, prm.frame_interval);
+    }
+
+    /// The same where viscosity holds it.
+    double
+    longest_held() const
+    {
+      return std::min(prm.maximum > 0 ? prm.maximum : prm.frame_interval, prm.frame_interval);
     }
 
     double
@@ -127,6 +134,8 @@ namespace treacle
     }
 
   private:
+    static constexpr double default_maximum = 0.04; // s
+
     /// What the liquid's motion allows.
     void
     find_longest(const State<dim>        &state,
