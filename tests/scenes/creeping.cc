@@ -3,7 +3,7 @@
 
 // Stiff liquid takes steps as long as its motion allows, not as gravity would: a wave on a liquid of
 // depth 1 levels out at the exact rate in few steps (C3: 0.145546628 g h / nu), stays level in steps
-// of five times the time that takes, and goes at once with the solid that carries it when that falls, faster than it would.
+// of five times the time that takes, with nothing said of the largest step; what turns has the usual ones; and goes at once with the solid that carries it when that falls, faster than it would.
 
 #include "../run_scene.h"
 #include "../tests.h"
@@ -22,7 +22,7 @@ namespace
     return run_scene<dim>(
       comm,
       "set End time = " + std::to_string(end) + "\nset Frame interval = " + std::to_string(frame) +
-        "\nset Maximum time step = " + std::to_string(frame) + "\nsubsection Domain\n" +
+        "\nsubsection Domain\n" +
         "set Upper corner = " + (dim == 2 ? "1, 1.5" : "1, 0.5, 1.5") +
         "\nset Wall condition = default: free slip; bottom: no slip\nend\n"
         "subsection Mesh\nset Root cells = " + (dim == 2 ? "2" : "1") + "\nset Surface level = " + level +
@@ -56,6 +56,18 @@ namespace
         height = std::max(height, std::abs(row.at("Liquid maximum y (m)") - 1));
     out() << "2D: stays level in steps of " << rate * rows.back().at("Time step size (s)")
           << " over the rate: " << (height < 2e-4 ? "yes" : "no") << std::endl;
+  }
+
+  /// A stiff disc, which no node sees change.
+  void
+  turn(const MPI_Comm &comm)
+  {
+    const auto rows = run_scene<2>(
+      comm,
+      "set End time = 0.4\nset Frame interval = 0.2\nsubsection Mesh\nset Surface level = 4\nset Interior level = 4\nset Air level = 3\nend\n"
+      "subsection Material\nset Density = 1\nset Viscosity = 1e4\nend\nsubsection Gravity\nset Acceleration = 0; 0\nend\n"
+      "subsection Liquid 1\nset Radius = 0.2\nset Velocity = 5 * (0.5 - y); 5 * (x - 0.5)\nend\n");
+    out() << "2D: turns by 2 in " << rows.size() - 1 << " steps" << std::endl;
   }
 
   template <int dim>
@@ -93,6 +105,7 @@ start(const int, char **)
     relax<2>(comm);
     relax<3>(comm);
     stay_level(comm);
+    turn(comm);
     out() << std::setprecision(3);
     fall<2>(comm);
     fall<3>(comm);
