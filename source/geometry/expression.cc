@@ -43,6 +43,17 @@ namespace treacle
       return false;
     }
 
+    /// As a name of its own, not in "sqrt".
+    bool
+    has_name(const std::string &text, const char name)
+    {
+      const auto is_part = [&](const std::size_t i) { return i < text.size() && (std::isalnum(text[i]) || text[i] == '_'); };
+      for (std::size_t i = 0; i < text.size(); ++i)
+        if (text[i] == name && !is_part(i + 1) && (i == 0 || !is_part(i - 1)))
+          return true;
+      return false;
+    }
+
     /// deal.II writes a report of its own to std::cerr before it throws.
     class QuietErrors
     {
@@ -89,6 +100,7 @@ namespace treacle
     if (is_number(text, constant))
       return;
 
+    names_time            = in_time && has_name(text, 't');
     std::string variables = (dim == 2 ? "x,y" : "x,y,z");
     if (in_time)
       variables += ",t";

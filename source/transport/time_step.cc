@@ -25,8 +25,8 @@ namespace treacle
                       Patterns::Double(1e-3, 100));
     prm.add_parameter("Maximum time step",
                       maximum,
-                      "Largest size of a step (s). 0: 0.04 s, but where viscosity holds the liquid any that CFL number "
-                      "and frames allow, in which the velocity changes by no more than a quarter of itself.",
+                      "Largest size of a step (s). 0: 0.04 s, but where viscosity holds the liquid, no solid moves, and neither gravity nor "
+                      "an emitter changes, any that CFL number and frames allow, in which the velocity changes by no more than a quarter of itself.",
                       Patterns::Double(0));
     add_choice<Scheme>(
       prm,
@@ -225,12 +225,15 @@ namespace treacle
     const Change change    = change_before(state, domain);
     const double a         = std::min(g, 2 * change.fastest);
     const double by_change = std::max(largest_change / change.rate, least_distance / fastest_crossing(domain, state.v));
+    const double by_cfl    = longest_step(state, domain, a, prm.cfl);
+    const bool   is_bound  = longest_held() == longest_free() || domain.scene.is_driven() ||
+                           !forgets(domain, state.v, std::min(by_change, by_cfl));
     const std::array<std::pair<double, StepSize::Bound>, 3> bounds{
       {{by_change, StepSize::Bound::change},
-       {longest_step(state, domain, a, prm.cfl), StepSize::Bound::cfl},
-       {longest_held(), StepSize::Bound::maximum}}};
+       {by_cfl, StepSize::Bound::cfl},
+       {is_bound ? longest_free() : longest_held(), StepSize::Bound::maximum}}};
     const auto &[dt, bound] = *std::min_element(bounds.begin(), bounds.end());
-    if (dt > size.dt && (prm.maximum > 0 || forgets(domain, state.v, dt)))
+    if (dt > size.dt)
       std::tie(size.dt, size.bound) = std::tie(dt, bound);
   }
 

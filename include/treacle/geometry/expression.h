@@ -8,6 +8,7 @@
 
 #include <deal.II/base/function_parser.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,11 +38,19 @@ namespace treacle
       return !parser;
     }
 
+    /// Is t in it?
+    bool
+    depends_on_time() const
+    {
+      return names_time;
+    }
+
   private:
     double
     parse(const Point<dim> &x, const double t) const;
 
-    double                               constant = 0;
+    double                               constant   = 0;
+    bool                                 names_time = false;
     std::shared_ptr<FunctionParser<dim>> parser; // null for a plain number
   };
 
@@ -72,6 +81,12 @@ namespace treacle
       for (unsigned int d = 0; d < dim; ++d)
         value[d] = component[d](x, t);
       return value;
+    }
+
+    bool
+    depends_on_time() const
+    {
+      return std::any_of(component.begin(), component.end(), [](const auto &c) { return c.depends_on_time(); });
     }
 
   private:

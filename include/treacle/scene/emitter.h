@@ -50,6 +50,12 @@ namespace treacle
     Tensor<1, dim>
     velocity(const Point<dim> &x, const double t) const;
 
+    bool
+    changes_velocity() const
+    {
+      return velocity_at.depends_on_time();
+    }
+
     /// From t on?
     bool
     is_at_work(const double t) const

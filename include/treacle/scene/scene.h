@@ -151,6 +151,15 @@ namespace treacle
     Tensor<1, dim>
     gravity(const Point<dim> &x, const double t) const; // m/s^2
 
+    /// By solids that move, or by gravity or emitters that change?
+    bool
+    is_driven() const
+    {
+      const auto &emitters = this->emitters();
+      return this->has_moving_solids() || gravity_at.depends_on_time() ||
+             std::any_of(emitters.begin(), emitters.end(), [](const auto &e) { return e.changes_velocity(); });
+    }
+
   private:
     struct Liquid
     {
