@@ -21,6 +21,7 @@ GOOD = {
 CASES = [
     ("unknown parameter", {"Mesh/Surfce level": "4"}, r"Surfce level"),
     ("value outside its pattern", {"Mesh/Surface level": "many"}, r"Surface level"),
+    ("step that time cannot take", {"Maximum time step": "1e-13"}, r"Maximum time step must be 0 or at least"),
     ("no such choice", {"Viscosity/Mapping": "node FLAP"}, r"Mapping"),
     ("wrong number of components", {"Liquid 1/Velocity": "1; 2; 3"}, r"Liquid 1/Velocity"),
     ("syntax of an expression", {"Material/Viscosity": "1 +"}, r"Material/Viscosity"),

@@ -123,7 +123,7 @@ class Verdict:
     """What a run of a scene did, from its statistics: all relative."""
 
     def __init__(self, scene, table):
-        # the masses of nodes add up to that of a body that falls rigidly, those of faces only in the mean
+        # by the velocity that moves the liquid
         energy = [p + k for p, k in zip(table["Potential energy (J)"], table["Nodal kinetic energy (J)"])]
         self.n_steps = len(energy) - 1
         scale = max(energy[0], 1e-30)

@@ -75,7 +75,7 @@ namespace treacle
               const Tensor<1, dim> g = domain.scene.gravity(x, state.time);
               sums.potential_energy -= mass * (g * (x - domain.scene.lower_corner()));
             });
-            sums.dissipation += 2 * domain.viscosity[c] * volume * squared_strain_rate(domain, c, state.v);
+            sums.dissipation += dissipation(domain, c, state.v);
           }
       throw_first(mesh.communicator(), error);
     }

@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/choice.h>
+#include <treacle/base/exceptions.h>
 #include <treacle/base/exchange.h>
 #include <treacle/base/maximum.h>
 #include <treacle/fields/strain_rate.h>
@@ -36,6 +37,13 @@ namespace treacle
       "in the step before, and the surface moves with the velocity of the step's middle. "
       "backward Euler is of first order, and forgets at once.",
       {{"BDF2", Scheme::bdf2}, {"backward Euler", Scheme::backward_euler}});
+  }
+
+  template <int dim>
+  TimeStep<dim>::TimeStep(const Parameters &parameters)
+    : prm(parameters)
+  {
+    require(prm.maximum == 0 || prm.maximum >= 1e-12, "Maximum time step must be 0 or at least 1e-12 s.");
   }
 
   namespace
@@ -97,8 +105,9 @@ namespace treacle
     /// How the velocity has changed in the step before.
     struct Change
     {
-      double fastest; ///< largest acceleration (m/s^2)
-      double rate;    ///< |dv/dt| / |v|, both in the mean (1/s)
+      double fastest;        ///< largest acceleration (m/s^2)
+      double rate;           ///< |dv/dt| / |v|, both in the mean (1/s)
+      double kinetic_energy; ///< now (J)
     };
 
     /// Collective.
@@ -119,24 +128,20 @@ namespace treacle
           }
       const MPI_Comm &comm = domain.mesh.communicator();
       squares = Utilities::MPI::sum(squares, comm);
-      return {largest(comm, fastest), squares[1] > 0 ? std::sqrt(squares[0] / squares[1]) : 0.};
+      return {largest(comm, fastest), squares[1] > 0 ? std::sqrt(squares[0] / squares[1]) : 0., squares[1] / 2};
     }
 
     /// Does viscosity take so much in a step that the liquid knows nothing of how it moved before? Collective.
     template <int dim>
     bool
-    forgets(const LiquidDomain<dim> &domain, const NodeVector<dim> &v, const double dt)
+    forgets(const LiquidDomain<dim> &domain, const NodeVector<dim> &v, const double kinetic_energy, const double dt)
     {
       constexpr double times = 10; // the kinetic energy
-      Tensor<1, 2>     energy;     // what there is, and what viscosity takes (J)
-      for (LocalIndex node = 0; node < domain.mesh.n_owned_nodes(); ++node)
-        if (domain.is_active_node[node])
-          energy[0] += 0.5 * domain.node_mass[node] * v.value(node).norm_square();
+      double           power = 0;  // W
       for (LocalIndex c = 0; c < domain.mesh.n_owned_cells(); ++c)
         if (domain.liquid_volume[c] > 0)
-          energy[1] += 2 * domain.viscosity[c] * domain.liquid_volume[c] * squared_strain_rate(domain, c, v) * dt;
-      energy = Utilities::MPI::sum(energy, domain.mesh.communicator());
-      return energy[1] > times * energy[0];
+          power += dissipation(domain, c, v);
+      return Utilities::MPI::sum(power, domain.mesh.communicator()) * dt > times * kinetic_energy;
     }
 
     /// Does viscosity carry what happens at the surface in a step? Waves as short as a leaf are
@@ -219,19 +224,19 @@ namespace treacle
         size.dt    = size.falling;
         size.bound = g * size.dt > v ? StepSize::Bound::weight : StepSize::Bound::cfl;
       }
-    if (longest_held() <= size.dt || !motion.is_coupled || !state.before || !state.before->v ||
+    const double held = longest_held(domain.scene);
+    if (held <= size.dt || !motion.is_coupled || !state.before || !state.before->v ||
         !is_viscous_at_surface(domain, size.dt))
       return;
     const Change change    = change_before(state, domain);
     const double a         = std::min(g, 2 * change.fastest);
     const double by_change = std::max(largest_change / change.rate, least_distance / fastest_crossing(domain, state.v));
     const double by_cfl    = longest_step(state, domain, a, prm.cfl);
-    const bool   is_bound  = longest_held() == longest_free() || domain.scene.is_driven() ||
-                           !forgets(domain, state.v, std::min(by_change, by_cfl));
+    const bool   is_bound  = held > longest_free() && !forgets(domain, state.v, change.kinetic_energy, std::min(by_change, by_cfl));
     const std::array<std::pair<double, StepSize::Bound>, 3> bounds{
       {{by_change, StepSize::Bound::change},
        {by_cfl, StepSize::Bound::cfl},
-       {is_bound ? longest_free() : longest_held(), StepSize::Bound::maximum}}};
+       {is_bound ? longest_free() : held, StepSize::Bound::maximum}}};
     const auto &[dt, bound] = *std::min_element(bounds.begin(), bounds.end());
     if (dt > size.dt)
       std::tie(size.dt, size.bound) = std::tie(dt, bound);
@@ -243,7 +248,7 @@ namespace treacle
   {
     const double v  = maximum_speed(state, domain);
     const double g  = maximum_gravity(domain, state.time);
-    const double dt = longest_held();
+    const double dt = longest_held(domain.scene);
     return std::min((v + g * dt) * dt + 4 * domain.mesh.surface_size(), largest_reach(domain.mesh));
   }
 

@@ -26,6 +26,14 @@ namespace treacle
       mean += part.fraction * square(part.velocity_gradient(domain.mesh.cell_nodes[cell], v));
     return mean;
   }
+
+  /// What viscosity takes in a cell (W).
+  template <int dim>
+  double
+  dissipation(const LiquidDomain<dim> &domain, const LocalIndex cell, const NodeVector<dim> &v)
+  {
+    return 2 * domain.viscosity[cell] * domain.liquid_volume[cell] * squared_strain_rate(domain, cell, v);
+  }
 } // namespace treacle
 
 #endif

@@ -52,7 +52,7 @@ namespace treacle
       double end_time       = 1;
       double frame_interval = 0.04;
       double cfl            = 3;
-      double maximum        = 0; ///< 0: as longest_free() and longest_held() say
+      double maximum        = 0; ///< s; 0: as longest_free() and longest_held() say
 
       Scheme scheme = Scheme::bdf2;
 
@@ -60,9 +60,8 @@ namespace treacle
       add_parameters(ParameterHandler &prm);
     };
 
-    explicit TimeStep(const Parameters &parameters)
-      : prm(parameters)
-    {}
+    /// Throws a UserError if the largest step is neither 0 nor one that time can take.
+    explicit TimeStep(const Parameters &parameters);
 
     /// What a liquid does that is to be followed in time.
     struct Motion
@@ -113,11 +112,11 @@ namespace treacle
       return std::min(prm.maximum > 0 ? prm.maximum : default_maximum, prm.frame_interval);
     }
 
-    /// The same where viscosity holds it.
+    /// The same of liquid that viscosity holds, and nothing sets in motion within a step.
     double
-    longest_held() const
+    longest_held(const Scene<dim> &scene) const
     {
-      return std::min(prm.maximum > 0 ? prm.maximum : prm.frame_interval, prm.frame_interval);
+      return prm.maximum > 0 || scene.is_driven() ? longest_free() : prm.frame_interval;
     }
 
     double

@@ -35,7 +35,7 @@ class Results:
         return points[numpy.argsort(points[:, 0], kind="stable")]
 
     def energy(self):
-        """By the masses of nodes: those of faces add up to the kinetic energy only in the mean."""
+        """By the velocity of nodes, which moves the liquid."""
         return self["Nodal kinetic energy (J)"] + self["Potential energy (J)"]
 
     def energy_gain(self):
