@@ -8,10 +8,25 @@ namespace treacle
 {
   namespace
   {
-    /// Bits as Mesh::node_sides.
+    /// Bits as Mesh::node_sides, of walls that a cell's liquid touches, or rests on.
+    template <int dim>
+    unsigned int
+    sides_that_touch(const Mesh<dim> &mesh, const Vector &phi, const bool is_pressure_cell, const LocalIndex cell)
+    {
+      unsigned int sides = 0;
+      for (const LocalIndex node : mesh.cell_nodes[cell])
+        if (phi.local_element(node) <= 0)
+          sides |= mesh.node_sides[node];
+      if (is_pressure_cell)
+        for (const LocalIndex face : mesh.cell_faces[cell])
+          if (mesh.face_side[face] != Mesh<dim>::no_side)
+            sides |= 1u << mesh.face_side[face];
+      return sides;
+    }
+
     template <int dim>
     Vector
-    sides_that_touch(const Mesh<dim> &mesh, const Vector &phi)
+    sides_that_touch(const Mesh<dim> &mesh, const Vector &phi, const std::vector<unsigned char> &is_pressure_cell)
     {
       Vector sides = mesh.zeros(mesh.nodes);
       for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
@@ -20,9 +35,7 @@ namespace treacle
             continue;
           unsigned int wet = 0;
           for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
-            for (const LocalIndex v : mesh.cell_nodes[mesh.node_cells[k]])
-              if (phi.local_element(v) <= 0)
-                wet |= mesh.node_sides[v];
+            wet |= sides_that_touch(mesh, phi, is_pressure_cell[mesh.node_cells[k]], mesh.node_cells[k]);
           sides.local_element(node) = wet & mesh.node_sides[node];
         }
       sides.update_ghost_values();
@@ -35,14 +48,15 @@ namespace treacle
   held_nodes(const Scene<dim>                 &scene,
              const State<dim>                 &state,
              const std::vector<double>        &solid_distance,
-             const std::vector<unsigned char> &is_emitter_node)
+             const std::vector<unsigned char> &is_emitter_node,
+             const std::vector<unsigned char> &is_pressure_cell)
   {
     constexpr unsigned char all  = (1u << dim) - 1;
     const Mesh<dim>        &mesh = *state.mesh;
     HeldNodes<dim>          held;
     held.constrained.assign(mesh.node_position.size(), 0);
     held.prescribed.assign(mesh.node_position.size(), Tensor<1, dim>());
-    const Vector sides = sides_that_touch(mesh, state.phi);
+    const Vector sides = sides_that_touch(mesh, state.phi, is_pressure_cell);
     std::string  error;
     for (LocalIndex node = 0; node < held.constrained.size(); ++node)
       {
@@ -68,10 +82,12 @@ namespace treacle
   held_nodes(const Scene<2> &,
              const State<2> &,
              const std::vector<double> &,
+             const std::vector<unsigned char> &,
              const std::vector<unsigned char> &);
   template HeldNodes<3>
   held_nodes(const Scene<3> &,
              const State<3> &,
              const std::vector<double> &,
+             const std::vector<unsigned char> &,
              const std::vector<unsigned char> &);
 } // namespace treacle

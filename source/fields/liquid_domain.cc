@@ -50,7 +50,7 @@ namespace treacle
       cut_cells = CutCells<dim>(mesh, scene, solid_distance, state.time);
     find_emitters(state.time);
     measure_cells(state);
-    HeldNodes<dim> held = held_nodes(scene, state, solid_distance, is_emitter_node);
+    HeldNodes<dim> held = held_nodes(scene, state, solid_distance, is_emitter_node, is_pressure_cell);
     constrained         = std::move(held.constrained);
     prescribed          = std::move(held.prescribed);
     find_free_cells();

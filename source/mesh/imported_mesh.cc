@@ -3,6 +3,7 @@
 
 #include <treacle/base/choice.h>
 #include <treacle/geometry/simplex.h>
+#include <treacle/mesh/dual_weights.h>
 #include <treacle/mesh/ghost_cells.h>
 #include <treacle/mesh/imported_mesh.h>
 #include <treacle/mesh/mesh_file.h>
@@ -22,6 +23,7 @@ namespace treacle
       double                                       size;
       std::array<VertexKey, dim + 1>               vertex;
       std::array<std::array<double, dim>, dim + 1> position;
+      VertexValues<dim>                            weight;
       std::array<unsigned short, dim + 1>          vertex_walls;
       std::array<unsigned char, dim + 1>           wall;
     };
@@ -74,8 +76,9 @@ namespace treacle
                  const std::vector<double> &sizes,
                  const unsigned int         n_ranks)
     {
-      PerRank<Record<dim>> result(n_ranks);
-      GlobalIndex          id = 0;
+      PerRank<Record<dim>>      result(n_ranks);
+      const std::vector<double> weights = dual_weights(file);
+      GlobalIndex               id      = 0;
       for (const unsigned int c : order_of(file))
         {
           Record<dim> record;
@@ -89,6 +92,7 @@ namespace treacle
               const unsigned int vertex = file.cells[c][v];
               record.vertex[v]          = vertex;
               record.vertex_walls[v]    = file.vertex_walls[vertex];
+              record.weight[v]          = weights[vertex];
               for (unsigned int d = 0; d < dim; ++d)
                 record.position[v][d] = file.vertices[vertex][d];
             }
@@ -117,7 +121,7 @@ namespace treacle
                   for (unsigned int d = 0; d < dim; ++d)
                     x[d] = record.position[v][d];
                   result.vertices.push_back(
-                    {record.vertex[v], x, 0., record.vertex_walls[v]});
+                    {record.vertex[v], x, record.weight[v], record.vertex_walls[v]});
                 }
               cell.vertex[v] = it->second;
             }

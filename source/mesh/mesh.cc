@@ -2,6 +2,7 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/work.h>
+#include <treacle/mesh/dual_weights.h>
 #include <treacle/mesh/imported_mesh.h>
 #include <treacle/mesh/lattice_mesh.h>
 #include <treacle/mesh/make_locator.h>
@@ -12,14 +13,6 @@
 
 namespace treacle
 {
-  namespace
-  {
-    /// An imported mesh need not be Delaunay, and cells of one circumcircle have no
-    /// dual length at all: none is shorter than this part of the distance of the
-    /// barycentres along the normal.
-    constexpr double least_dual_length = 1e-2;
-  } // namespace
-
   template <int dim>
   struct Mesh<dim>::Maker
   {

@@ -2,7 +2,7 @@
 // Copyright (C) the Treacle authors
 
 // Meshes from files on 1, 2 and 3 ranks: counts, volume, walls, and the identity
-// sum A L n n^T = V I where no dual length is clamped; points in and around them are
+// sum A L n n^T = V I where no dual length is clamped, which weights see to at the sides of a body-centred box; points in and around them are
 // located the same on all ranks, and linear fields are exact there.
 
 #include <treacle/mesh/tracer.h>
@@ -97,19 +97,26 @@ check_points(const Mesh<dim> &mesh, const bool is_box)
 
 template <int dim>
 void
+check(const MPI_Comm &comm, const std::string &name, const bool is_box, const std::function<void(const std::string &)> &write)
+{
+  const std::string path = name + std::to_string(dim) + ".msh";
+  if (Utilities::MPI::this_mpi_process(comm) == 0)
+    write(path);
+  const Mesh<dim> mesh(comm, path);
+  tests::out() << dim << "D, " << name << std::endl;
+  check_mesh(mesh);
+  check_points(mesh, is_box);
+}
+
+template <int dim>
+void
 check(const MPI_Comm    &comm,
       const std::string &name,
       const unsigned int n,
       const bool         squeezed,
       const double       jitter)
 {
-  const std::string path = name + std::to_string(dim) + ".msh";
-  if (Utilities::MPI::this_mpi_process(comm) == 0)
-    tests::write_box<dim>(path, n, squeezed, jitter);
-  const Mesh<dim> mesh(comm, path);
-  tests::out() << dim << "D, " << name << std::endl;
-  check_mesh(mesh);
-  check_points(mesh, !squeezed);
+  check<dim>(comm, name, !squeezed, [&](const std::string &path) { tests::write_box<dim>(path, n, squeezed, jitter); });
 }
 
 void
@@ -122,6 +129,7 @@ start(const int, char **)
     check<3>(comm, "box", 4, false, 0);
     check<3>(comm, "jittered", 4, false, 0.2);
     check<3>(comm, "squeezed", 5, true, 0);
+    check<3>(comm, "body-centred", true, [](const std::string &path) { tests::write_body_centred(path, 4); });
   });
 }
 

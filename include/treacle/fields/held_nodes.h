@@ -22,7 +22,8 @@ namespace treacle
   };
 
   /// A wall (Walls: a side of the box, or what a mesh from a file calls so) holds the nodes at which it touches
-  /// liquid: at which one of their cells has a liquid node on the same wall. What has yet to come down on a floor does not feel it.
+  /// liquid: at which one of their cells has a liquid node on the same wall, or a face on it and pressure, which bears the liquid above air thinner than
+  /// the cell. What has yet to come down on a floor does not feel it.
   /// Solids, where their distance is not positive, and emitters hold all their nodes.
   /// Collective. Throws a UserError on all ranks where a velocity makes no sense.
   template <int dim>
@@ -30,7 +31,8 @@ namespace treacle
   held_nodes(const Scene<dim>                 &scene,
              const State<dim>                 &state,
              const std::vector<double>        &solid_distance,
-             const std::vector<unsigned char> &is_emitter_node);
+             const std::vector<unsigned char> &is_emitter_node,
+             const std::vector<unsigned char> &is_pressure_cell);
 } // namespace treacle
 
 #endif
