@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 namespace treacle
 {
@@ -51,27 +50,21 @@ namespace treacle
           }
       }
 
-      /// The part in the cell of the face's vertices x and p, the one that is number @p last of vertex. Its dual centre has the same
-      /// power |x - c|^2 - w for all of its vertices; in the face's plane that, less |x|^2, is linear.
+      /// The part in the cell of the face's vertices x and p, the one that is number @p last of vertex: the dual centre's way from the face towards p,
+      /// weighted_circumcentre() along the normal.
       void
       add_side(const std::array<Point<dim>, dim> &x, const Point<dim> &p, const unsigned int last)
       {
         Simplex<dim> cell;
         std::copy(x.begin(), x.end(), cell.begin());
-        cell[dim]                         = p;
-        const Tensor<1, dim> up           = basis_gradients<dim>(cell)[dim];
-        const double         height       = 1 / up.norm();
-        const Point<dim>     foot         = p - height * height * up;
-        const auto           at_foot      = barycentric_coordinates<dim>(cell, foot);
-        double               power        = height * height;
+        cell[dim]                   = p;
+        const auto           g      = basis_gradients<dim>(cell);
+        const Tensor<1, dim> normal = g[dim] / g[dim].norm();
         for (unsigned int k = 0; k < dim; ++k)
-          {
-            power -= at_foot[k] * (x[k] - foot).norm_square();
-            slope[k] += at_foot[k] / (2 * height);
-          }
-        value += power / (2 * height);
-        way += height / (dim + 1);
-        slope[last] = -1 / (2 * height);
+          slope[k] -= 0.5 * (g[k] * normal);
+        slope[last] = -0.5 * (g[dim] * normal);
+        value += (weighted_circumcentre<dim>(cell, {}) - x[0]) * normal;
+        way += 1 / ((dim + 1) * g[dim].norm());
       }
     };
 
@@ -126,42 +119,22 @@ namespace treacle
       return sum;
     }
 
-    /// The numbers of the dual lengths that the weight of each vertex changes.
-    template <int dim>
-    std::vector<std::vector<unsigned int>>
-    changed_by(const std::vector<DualLength<dim>> &lengths, const unsigned int n_vertices)
-    {
-      std::vector<std::vector<unsigned int>> result(n_vertices);
-      for (unsigned int i = 0; i < lengths.size(); ++i)
-        for (const unsigned int vertex : lengths[i].vertex)
-          result[vertex].push_back(i);
-      return result;
-    }
-
     /// Weights with which all are as long as this part of the way, or nearly.
     template <int dim>
     std::vector<double>
-    relaxed(const std::vector<DualLength<dim>>           &lengths,
-            const std::vector<std::vector<unsigned int>> &by_vertex,
-            const std::vector<double>                    &bounds,
-            const double                                  part)
+    relaxed(const std::vector<DualLength<dim>> &lengths, const std::vector<double> &bounds, const double part)
     {
-      std::vector<double>       weights(bounds.size(), 0.);
-      std::vector<unsigned int> to_look_at(lengths.size());
-      std::iota(to_look_at.begin(), to_look_at.end(), 0);
-      for (unsigned int sweep = 0; sweep < most_sweeps && !to_look_at.empty(); ++sweep)
+      std::vector<double> weights(bounds.size(), 0.);
+      bool                is_done = false;
+      for (unsigned int sweep = 0; sweep < most_sweeps && !is_done; ++sweep)
         {
-          std::vector<unsigned int> next;
-          for (const unsigned int i : to_look_at)
-            if (lengths[i].with(weights) < part * lengths[i].way)
+          is_done = true;
+          for (const auto &length : lengths)
+            if (length.with(weights) < part * length.way)
               {
-                lengths[i].set(more * part * lengths[i].way, bounds, weights);
-                for (const unsigned int vertex : lengths[i].vertex)
-                  next.insert(next.end(), by_vertex[vertex].begin(), by_vertex[vertex].end());
+                length.set(more * part * length.way, bounds, weights);
+                is_done = false;
               }
-          std::sort(next.begin(), next.end());
-          next.erase(std::unique(next.begin(), next.end()), next.end());
-          to_look_at = std::move(next);
         }
       return weights;
     }
@@ -173,12 +146,11 @@ namespace treacle
   {
     const std::vector<DualLength<dim>> lengths = dual_lengths(file);
     std::vector<double>                bounds  = bounds_of_weights(file), best(bounds.size(), 0.);
-    const auto                         by_vertex = changed_by(lengths, bounds.size());
-    double                             lacks     = shortage(lengths, best);
+    double                             lacks   = shortage(lengths, best);
     for (unsigned int round = 0; round < least.size() + most_rounds; ++round)
       {
         const double              part    = round < least.size() ? least[round] : least.back();
-        const std::vector<double> weights = relaxed(lengths, by_vertex, bounds, part);
+        const std::vector<double> weights = relaxed(lengths, bounds, part);
         const double              now     = shortage(lengths, weights);
         if (now <= lacks)
           {
