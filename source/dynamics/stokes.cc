@@ -219,10 +219,12 @@ namespace treacle
              (&inverse == &hierarchies && n > 2 * n_beside_b + most_further);
     };
     // then on, while it helps, until the projection has nothing to correct: it would need a hierarchy
-    unsigned int further = 0;
-    double       last    = std::numeric_limits<double>::max();
-    const auto   is_done = [&](const Pair &r, const Pair &y) {
-      if (!is_within(r * y))
+    bool         was_within = false; // the residual only falls
+    unsigned int further    = 0;
+    double       last       = std::numeric_limits<double>::max();
+    const auto   is_done    = [&](const Pair &r, const Pair &y) {
+      was_within = was_within || is_within(r * y);
+      if (!was_within)
         return false;
       const double now   = outflow_left(r, y);
       const bool   helps = now > tolerated_outflow && now < 0.8 * last && tolerated_outflow > 0;
