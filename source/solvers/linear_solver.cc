@@ -100,7 +100,7 @@ namespace treacle
     constexpr double smallest_size = 1e-7;
 
     /// What a hierarchy is made of, where it is not the matrix itself: a multiple of it; and of components that are
-    /// coupled, and do not turn together, each by itself: a ninth of the work, and hardly more iterations. Small matrices are solved as they are.
+    /// coupled, where no rotations are smoothed, each by itself: a ninth of the work, and hardly more iterations. Small matrices are solved as they are.
     std::shared_ptr<const TrilinosWrappers::SparseMatrix>
     copy_for_amg(const TrilinosWrappers::SparseMatrix &matrix,
                  const double                          factor,
@@ -144,11 +144,15 @@ namespace treacle
               const double factor = size > 0 && size < smallest_size ? 1 / size : 1;
               const auto   copy   = copy_for_amg(matrix, factor, *null_space);
               const auto   amg    = make_amg(copy ? *copy : matrix, *null_space);
-              return [amg, null_space, copy, factor](Vector &z, const Vector &r) {
+              const auto   cycle  = [amg, null_space, copy, factor](Vector &z, const Vector &r) {
                 amg->vmult(z, r);
                 if (factor != 1)
                   z *= factor;
               };
+              if (null_space->turning.n_parts == 0 || matrix.m() <= coarse)
+                return cycle;
+              const auto balancing = std::make_shared<const Balancing>(matrix, std::move(null_space->turning));
+              return [balancing, cycle](Vector &z, const Vector &r) { balancing->apply(z, r, cycle); };
             }
           case Preconditioner::incomplete_cholesky:
             return make(std::make_shared<TrilinosWrappers::PreconditionIC>());

@@ -2,13 +2,30 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/maximum.h>
-#include <treacle/fields/connected_liquid.h>
 #include <treacle/viscosity/node_system.h>
-
-#include <limits>
+#include <treacle/viscosity/pieces.h>
 
 namespace treacle
 {
+  namespace
+  {
+    /// A piece turns as one if the box around it has a diagonal of at most so many times the way that momentum spreads in a step.
+    constexpr double rigid_size = 14;
+    /// Bodies bend and turn everywhere if momentum spreads over so much of the box, in 3D from this slenderness on: in 2D, a hierarchy with
+    /// rotations costs little more.
+    constexpr double stiff_part_of_box = 0.25, slender = 25;
+
+    template <int dim>
+    double
+    shortest_edge(const BoundingBox<dim> &box)
+    {
+      double result = box.side_length(0);
+      for (unsigned int d = 1; d < dim; ++d)
+        result = std::min(result, box.side_length(d));
+      return result;
+    }
+  } // namespace
+
   template <int dim>
   double
   NodeSystem<dim>::spread_of_momentum(const Stiffness &stiffness) const
@@ -21,40 +38,21 @@ namespace treacle
   }
 
   template <int dim>
-  bool
-  NodeSystem<dim>::turns_stiffly(const Stiffness &stiffness) const
-  {
-    double edge = std::numeric_limits<double>::max();
-    for (unsigned int d = 0; d < dim; ++d)
-      edge = std::min(edge, domain.mesh.box().side_length(d));
-    const double spread = spread_of_momentum(stiffness);
-    return spread > 0.25 * edge || (spread > 2 * domain.mesh.finest_size() && has_several_pieces());
-  }
-
-  template <int dim>
-  bool
-  NodeSystem<dim>::has_several_pieces() const
-  {
-    const Numbering active(domain.mesh.cells, domain.is_active_cell);
-    const Vector    label = label_connected(domain, active);
-    double          least = std::numeric_limits<double>::max(), most = -1;
-    for (const LocalIndex c : active.owned)
-      {
-        least = std::min(least, label.local_element(c));
-        most  = std::max(most, label.local_element(c));
-      }
-    const MPI_Comm &comm = domain.mesh.communicator();
-    return Utilities::MPI::min(least, comm) < Utilities::MPI::max(most, comm);
-  }
-
-  template <int dim>
   NearNullSpace
   NodeSystem<dim>::stress_free_motions(const Stiffness &stiffness) const
   {
+    const double  spread = spread_of_momentum(stiffness);
     NearNullSpace space;
-    space.n_components   = dim;
-    space.n_vectors       = turns_stiffly(stiffness) ? (dim == 2 ? 3 : 6) : dim;
-    const std::size_t n  = dim * owned_nodes.size();
+    space.n_components = dim;
+    space.n_vectors    = dim;
+    if (rigid_size * spread > domain.mesh.finest_size())
+      {
+        const Pieces<dim> pieces(domain, numbering);
+        if (spread > stiff_part_of_box * shortest_edge(domain.mesh.box()) && (dim == 2 || pieces.slenderness() > slender))
+          space.n_vectors = dim == 2 ? 3 : 6;
+        space.turning = pieces.rotations(rigid_size * spread);
+      }
+    const std::size_t n      = dim * owned_nodes.size();
     const Point<dim>  origin = domain.mesh.middle();
     space.vectors.assign(space.n_vectors * n, 0);
     for (unsigned int i = 0; i < owned_nodes.size(); ++i)
@@ -67,11 +65,8 @@ namespace treacle
         for (unsigned int d = 0; d < dim; ++d)
           set(d, d, 1);
         for (unsigned int k = dim; k < space.n_vectors; ++k)
-          {
-            const unsigned int a = (k - dim) % dim, b = (k - dim + 1) % dim;
-            set(k, a, -r[b]);
-            set(k, b, r[a]);
-          }
+          for (unsigned int d = 0; d < dim; ++d)
+            set(k, d, turned(r, k - dim)[d]);
       }
     return space;
   }

@@ -5,6 +5,7 @@
 #define treacle_solvers_linear_solver_h
 
 #include <treacle/base/types.h>
+#include <treacle/solvers/balancing.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/lac/trilinos_precondition.h>
@@ -25,6 +26,7 @@ namespace treacle
     unsigned int        n_components = 1;
     unsigned int        n_vectors    = 0;
     std::vector<double> vectors;
+    PartMotions         turning; ///< of parts by themselves, for which the preconditioner is made exact
   };
 
   /// As deal.II's solvers want a linear map.

@@ -110,8 +110,8 @@ namespace treacle
       return owned_nodes;
     }
 
-    /// Motions without stress, zero at prescribed components: the rigid ones, or translations
-    /// alone where no body turns stiffly: then rotations cost more than they save. Collective.
+    /// Motions without stress, zero at prescribed components: translations, and the rotations of pieces that are so stiff that
+    /// each turns as one; where one is slender and stiff, rotations of all liquid about one centre. Collective.
     NearNullSpace
     stress_free_motions(const Stiffness &stiffness) const;
 
@@ -121,15 +121,6 @@ namespace treacle
     /// How far viscosity spreads momentum in a step, sqrt(nu dt) at its largest (m). Collective.
     double
     spread_of_momentum(const Stiffness &stiffness) const;
-
-    /// Are there bodies that viscosity holds so stiff that a hierarchy has to know that they turn: as wide as a quarter of
-    /// the box, or several, of which some may be crumbs? Collective.
-    bool
-    turns_stiffly(const Stiffness &stiffness) const;
-
-    /// Collective.
-    bool
-    has_several_pieces() const;
 
     /// The rows of a node: blocks of dim by dim.
     struct Row;
