@@ -14,21 +14,6 @@ namespace tests::solvers_gauss_seidel
 {
 namespace
 {
-  /// Unknowns without any order, the same on any number of ranks.
-  template <int dim>
-  treacle::Vector
-  disorder(const Body<dim> &body, const double phase)
-  {
-    const NodeSystem<dim> &system = body.fit.system;
-    treacle::Vector        result = system.unknowns(body.state.v);
-    for (unsigned int i = 0; i < result.locally_owned_size(); ++i)
-      {
-        const Point<dim> &x     = body.domain.mesh.node_position[system.nodes()[i / dim]];
-        result.local_element(i) = std::sin(1000 * x.norm_square() + 77 * x[0] + i % dim + phase);
-      }
-    return result;
-  }
-
   template <int dim>
   void
   check(const MPI_Comm &comm, const unsigned int level)
