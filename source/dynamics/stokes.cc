@@ -185,7 +185,9 @@ namespace treacle
     for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
       if (const double weight = stiffness.in_cell(c); weight > 0)
         lost += 2 * weight * squared_strain_rate(domain, c, v);
-    return std::max(first_energy, twice_kinetic_energy(domain, [&](const LocalIndex f) { return face_velocity(mesh, v, f); })) +
+    const double leaf_a_step = mesh.finest_size() / step;
+    return std::max(twice_kinetic_energy(domain, [&](const LocalIndex) { return leaf_a_step; }),
+                    twice_kinetic_energy(domain, [&](const LocalIndex f) { return face_velocity(mesh, v, f); })) +
            Utilities::MPI::sum(lost, mesh.communicator());
   }
 
@@ -206,8 +208,8 @@ namespace treacle
                        const double       squared_norm,
                        const unsigned int most) const
   {
-    // what is prescribed may be all of b, as where a stiff body moves with an emitter, and little of it motion: then on, as far as digits
-    // go, until the residual is as small beside the energy of what moves
+    // what is prescribed may be all of b, as where a stiff body moves with an emitter, or weight that pressure bears, and little of it motion: then on,
+    // as far as digits go, until the residual is as small beside the energy of what moves
     const double tolerated = std::pow(prm.relative_tolerance, 2);
     unsigned int n = 0, n_beside_b = 0;
     const auto   is_within = [&](const double square) {
@@ -286,7 +288,6 @@ namespace treacle
     for (LocalIndex f = 0; f < domain.mesh.n_owned_faces(); ++f)
       u.local_element(f) = face_velocity(domain.mesh, state.v, f);
     u.update_ghost_values();
-    first_energy      = twice_kinetic_energy(domain, [&](const LocalIndex f) { return state.u.local_element(f); });
     tolerated_outflow = 0.5 * pressure.tolerated_outflow(u);
     const auto iterations = solve(x, b);
     if (!iterations)

@@ -77,8 +77,8 @@ namespace treacle
     Pair
     first_guess(const State<dim> &state, const Pair &b) const;
 
-    /// Of what moves, in terms of natural norms: twice the kinetic energy, of the faces before or with x, whichever is more, and twice
-    /// what viscosity takes in the step (J).
+    /// Of what moves: twice its kinetic energy, with x or at a leaf a step, whichever is more, and twice what viscosity takes in
+    /// the step (J).
     double
     energy(const Pair &x) const;
 
@@ -121,7 +121,6 @@ namespace treacle
     Pair                       diagonal_inverse;
     const Inverse              hierarchies, diagonals;
     mutable double             tolerated_outflow = 0; ///< (m^dim/s)
-    mutable double             first_energy      = 0; ///< twice the kinetic energy of u* (J)
     mutable Vector             outflow;               ///< scratch
   };
 } // namespace treacle
