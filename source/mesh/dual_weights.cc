@@ -95,6 +95,7 @@ namespace treacle
             }
       return lengths;
     }
+
     template <int dim>
     std::vector<double>
     bounds_of_weights(const MeshFile<dim> &file)
