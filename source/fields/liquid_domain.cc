@@ -161,8 +161,10 @@ namespace treacle
       return 1;
     if (!is_pressure_cell[i] && !is_pressure_cell[j])
       return is_free_face(face) ? (liquid_fraction(i) + liquid_fraction(j)) / 2 : minimum_theta;
-    const double a = dual_distance[is_pressure_cell[i] ? i : j];
-    const double b = std::max(0., dual_distance[is_pressure_cell[i] ? j : i]);
+    const LocalIndex inside = is_pressure_cell[i] ? i : j, other = is_pressure_cell[i] ? j : i;
+    // a cell of the air may have its dual centre in the liquid, where leaves change: the surface is beyond that
+    const double most = is_active_cell[other] ? 1. : std::max(1., mesh.cell_size[inside] / mesh.face_dual_length[face]);
+    const double a = dual_distance[inside], b = std::max((1 - 1 / most) * a, dual_distance[other]);
     return a / (a - b);
   }
 

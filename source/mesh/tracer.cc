@@ -36,13 +36,35 @@ namespace treacle
   } // namespace
 
   template <int dim>
+  double
+  Tracer<dim>::above_chord(const Location<dim> &location, const NodeField<dim> &field) const
+  {
+    const auto                         &nodes = mesh.cell_nodes[location.cell];
+    std::array<Tensor<1, dim>, dim + 1> gradient;
+    Tensor<1, dim>                      mean;
+    double                              smoothness = 0;
+    for (unsigned int i = 0; i <= dim; ++i)
+      {
+        gradient[i] = field.gradient->value(nodes[i]);
+        mean += location.lambda[i] * gradient[i];
+        smoothness += location.lambda[i] * field.smoothness->local_element(nodes[i]);
+      }
+    const double square = mean.norm_square();
+    double       above  = 0;
+    for (unsigned int i = 0; i <= dim && square > 0; ++i)
+      {
+        const Tensor<1, dim> way = location.point - mesh.node_position[nodes[i]];
+        above += 0.5 * location.lambda[i] * (gradient[i] * (way - (way * mean / square) * mean));
+      }
+    return smoothness * above;
+  }
+
+  template <int dim>
   void
   Tracer<dim>::evaluate_here(const Location<dim>               &location,
                              const std::vector<NodeField<dim>> &fields,
                              double                            *result) const
   {
-    const Point<dim> &x = location.point;
-    const auto &nodes = mesh.cell_nodes[location.cell];
     for (unsigned int k = 0; k < fields.size(); ++k)
       {
         const VertexValues<dim> f = mesh.values(location.cell, *fields[k].value);
@@ -55,16 +77,8 @@ namespace treacle
               result[k] += location.lambda[i] * e[i];
             result[k] = std::clamp(result[k], *low, *high);
           }
-        if (fields[k].gradient == nullptr)
-          continue;
-        double correction = 0, smoothness = 0;
-        for (unsigned int i = 0; i <= dim; ++i)
-          {
-            const Tensor<1, dim> g = fields[k].gradient->value(nodes[i]);
-            correction += 0.5 * location.lambda[i] * (g * (x - mesh.node_position[nodes[i]]));
-            smoothness += location.lambda[i] * fields[k].smoothness->local_element(nodes[i]);
-          }
-        result[k] += smoothness * correction;
+        if (fields[k].gradient != nullptr)
+          result[k] += above_chord(location, fields[k]);
       }
   }
 

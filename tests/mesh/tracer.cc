@@ -2,8 +2,9 @@
 // Copyright (C) the Treacle authors
 
 // Location, evaluation and tracing anywhere in the box on 1, 2 and 3 ranks: linear
-// fields are exact, quadratic ones with gradients, and a rotation is followed to
-// third order in dt (the error of a path falls 16 times when dt is halved).
+// fields are exact, distances with gradients all but that, what has no change across its gradient
+// is as without, and a rotation is followed to third order in dt (the error of a path falls 16 times
+// when dt is halved).
 
 #include <treacle/mesh/tracer.h>
 
@@ -34,30 +35,36 @@ check(const MPI_Comm &comm)
     });
   const Mesh<dim> mesh(octree);
 
-  const auto quadratic = [](const Point<dim> &x) {
-    return 1 + x * x - x[0] * x[dim - 1];
-  };
-  const auto      linear    = [](const Point<dim> &x) { return 2 * x[0] - 3 * x[dim - 1] + 0.5; };
-  treacle::Vector q = mesh.zeros(mesh.nodes), l = q, smooth = q;
-  NodeVector<dim> gradient(mesh.nodes), rotation(mesh.nodes);
+  // from a ball, and what goes as it likes along its gradient, which is linear between nodes
+  Point<dim> far;
+  far[0]               = -7;
+  const auto distance  = [&far](const Point<dim> &x) { return x.distance(far) - 8; };
+  const auto along     = [](const Point<dim> &x) { return x[0] + 2 * x[dim - 1]; };
+  const auto linear    = [](const Point<dim> &x) { return 2 * x[0] - 3 * x[dim - 1] + 0.5; };
+  treacle::Vector r = mesh.zeros(mesh.nodes), s = r, l = r, smooth = r;
+  NodeVector<dim> gradient_of_r(mesh.nodes), gradient_of_s(mesh.nodes), rotation(mesh.nodes);
   for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
     {
       const Point<dim> &x   = mesh.node_position[node];
-      q.local_element(node) = quadratic(x);
+      r.local_element(node) = distance(x);
+      s.local_element(node) = along(x) * along(x) * along(x);
       l.local_element(node) = linear(x);
       smooth.local_element(node) = 1;
-      Tensor<1, dim> g      = 2 * x, v;
-      g[0] -= x[dim - 1];
-      g[dim - 1] -= x[0];
-      gradient.set(node, g);
+      Tensor<1, dim> g, v;
+      g[0]       = 3 * along(x) * along(x);
+      g[dim - 1] = 2 * g[0];
+      gradient_of_r.set(node, (x - far) / x.distance(far));
+      gradient_of_s.set(node, g);
       v[0] = -(x[1] - 0.5);
       v[1] = x[0] - 1;
       rotation.set(node, v);
     }
-  q.update_ghost_values();
+  r.update_ghost_values();
+  s.update_ghost_values();
   l.update_ghost_values();
   smooth.update_ghost_values();
-  gradient.update_ghost_values();
+  gradient_of_r.update_ghost_values();
+  gradient_of_s.update_ghost_values();
   rotation.update_ghost_values();
 
   // each rank asks for points all over the box, corners and walls among them
@@ -74,12 +81,15 @@ check(const MPI_Comm &comm)
       x.push_back(p);
     }
   const Tracer<dim>         tracer(mesh);
-  const std::vector<double> values = tracer.evaluate(x, {{&q, &gradient, &smooth}, {&l}});
-  double                    error  = 0;
+  const std::vector<double> values = tracer.evaluate(x, {{&l}, {&s, &gradient_of_s, &smooth}, {&s}, {&r, &gradient_of_r, &smooth}, {&r}});
+  double                    error = 0, of_distance = 0, of_chords = 0;
   for (unsigned int i = 0; i < x.size(); ++i)
-    error = std::max({error,
-                      std::abs(values[2 * i] - quadratic(x[i])),
-                      std::abs(values[2 * i + 1] - linear(x[i]))});
+    {
+      const double *at = &values[5 * i];
+      error            = std::max({error, std::abs(at[0] - linear(x[i])), std::abs(at[1] - at[2])});
+      of_distance      = std::max(of_distance, std::abs(at[3] - distance(x[i])));
+      of_chords        = std::max(of_chords, std::abs(at[4] - distance(x[i])));
+    }
 
   std::vector<Point<dim>> start;
   for (const Point<dim> &p : x)
@@ -100,7 +110,8 @@ check(const MPI_Comm &comm)
         }
     }
   tests::out() << dim << "D: cells " << mesh.cells->size() << ", fields "
-               << (Utilities::MPI::max(error, comm) < 1e-12 ? "exact" : "WRONG")
+               << (Utilities::MPI::max(error, comm) < 1e-12 ? "exact" : "WRONG") << ", distance off by "
+               << Utilities::MPI::max(of_distance, comm) << ", chords " << Utilities::MPI::max(of_chords, comm)
                << ", path error " << Utilities::MPI::max(path_error[0], comm)
                << ", halved dt: smaller by "
                << std::round(Utilities::MPI::max(path_error[0], comm) /

@@ -26,9 +26,10 @@ namespace
            ") < 0.15, 0.01, 1)\nend\n";
   }
 
+  /// The surface between nodes, or on leaves of all sizes, where cells above it have dual centres below.
   template <int dim>
   void
-  rest(const MPI_Comm &comm)
+  rest(const MPI_Comm &comm, const std::string &level, const std::string &viscosity)
   {
     const std::string y    = dim == 2 ? "y" : "z";
     const auto        rows = run_scene<dim>(
@@ -36,12 +37,13 @@ namespace
       "set End time = " + std::string(dim == 2 ? "0.3" : "0.1") + "\nset Frame interval = 0.1\nset Maximum time step = 0.1\n"
       "subsection Domain\nset Wall condition = free slip\nend\n" +
         graded<dim>("(x - 0.5)^2 + (" + y + " - 0.4)^2", dim == 2 ? 3 : 2, dim == 2 ? 6 : 4) + tolerance("1e-13") +
-        "subsection Material\nset Density = 1\nset Viscosity = 0.1\nend\n"
-        "subsection Liquid 1\nset Shape = expression\nset Expression = " + y + " - 0.4\nend\n");
+        "subsection Material\nset Density = 1\nset Viscosity = " + viscosity + "\nend\n"
+        "subsection Liquid 1\nset Shape = expression\nset Expression = " + y + " - " + level + "\nend\n");
     double fastest = 0;
     for (const Row &row : rows)
       fastest = std::max(fastest, row.at("Maximum speed (m/s)"));
-    out() << dim << "D: at rest " << (fastest < 1e-8 * std::sqrt(9.81 * 0.4) ? "yes" : "no") << ", meshes "
+    out() << dim << "D: at rest at " << level << ", viscosity " << viscosity << ": "
+          << (fastest < 1e-8 * std::sqrt(9.81 * 0.4) ? "yes" : "no") << ", meshes "
           << rows.back().at("Rebuilds") << std::endl;
   }
 
@@ -231,8 +233,11 @@ start(const int, char **)
 {
   on_1_2_3_ranks([](const MPI_Comm &comm) {
     out() << std::setprecision(3);
-    rest<2>(comm);
-    rest<3>(comm);
+    for (const auto &[level, viscosity] : {std::pair("0.4", "0.1"), {"0.375", "0.1"}, {"0.375", "0"}})
+      {
+        rest<2>(comm, level, viscosity);
+        rest<3>(comm, level, viscosity);
+      }
     turn<2>(comm);
     turn<3>(comm);
     sizes<2>(comm);

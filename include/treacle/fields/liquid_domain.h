@@ -63,7 +63,7 @@ namespace treacle
 
     // -- faces --
     std::vector<double> open_fraction; ///< alpha: part of the area outside solids and emitters
-    std::vector<double> theta;         ///< liquid part of the dual edge; of free faces that of the volume
+    std::vector<double> theta;         ///< liquid part of the dual edge, which may go on to the surface; of free faces that of the volume
     std::vector<double> face_mass;     ///< M_f = rho alpha A theta L (kg); 0: no unknown
     /// Normal velocity where there is no unknown: of walls, solids, emitters.
     std::vector<double> solid_velocity;
@@ -147,7 +147,8 @@ namespace treacle
     void
     find_material(const LocalIndex cell, const State<dim> &state);
 
-    /// theta of an owned open face beside an active cell, not yet bounded from below.
+    /// theta of an owned open face beside an active cell, not yet bounded from below. Up to the surface, at most a leaf away,
+    /// where the dual edge ends before that in the air.
     double
     liquid_part_of_dual_edge(const LocalIndex face) const;
 

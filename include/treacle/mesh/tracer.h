@@ -16,9 +16,11 @@ namespace treacle
   using Guesses = std::vector<LocalIndex>;
 
   /// A node field, P1 in a cell. With nodal gradients g (1/m) and their smoothness s
-  /// (1 where the field has one, 0 at kinks) it is evaluated as
-  /// `sum lambda_i f_i + (sum lambda_i s_i) sum lambda_i g_i·(x - x_i)/2`, which is
-  /// continuous, and exact for quadratic fields where s = 1. With a correction e it is
+  /// (1 where the field has one, 0 at kinks) it is a distance, evaluated as
+  /// `sum lambda_i f_i + (sum lambda_i s_i) sum lambda_i g_i·P(x - x_i)/2`, P across
+  /// `sum lambda_i g_i`: continuous, and exact for distances from quadratic surfaces but for terms of
+  /// third order where s = 1. Along its gradient a distance is linear; what is not, as where the velocity that
+  /// moved it has a kink, is an error that the surface between two nodes does not show. With a correction e it is
   /// f + e, limited to the values of f at the nodes of the cell.
   template <int dim>
   struct NodeField
@@ -141,6 +143,10 @@ namespace treacle
                        const std::vector<unsigned int>   &elsewhere,
                        const std::vector<NodeField<dim>> &fields,
                        std::vector<double>               &values) const;
+
+    /// What the nodal gradients of a field add to the mean of its nodes.
+    double
+    above_chord(const Location<dim> &location, const NodeField<dim> &field) const;
 
     void
     evaluate_here(const Location<dim>               &location,

@@ -8,8 +8,8 @@
 
 namespace treacle
 {
-  /// phi between the nodes, with nodal gradients: exact for quadratics. Refers to
-  /// the mesh and phi. Members that return values at points are collective.
+  /// phi between the nodes, with nodal gradients: as exact as a quadratic function across its gradient, linear
+  /// along it (see NodeField). Refers to the mesh and phi. Members that return values at points are collective.
   template <int dim>
   class SmoothLevelSet
   {
