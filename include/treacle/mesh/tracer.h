@@ -18,8 +18,8 @@ namespace treacle
   /// A node field, P1 in a cell. With nodal gradients g (1/m) and their smoothness s
   /// (1 where the field has one, 0 at kinks) it is a distance, evaluated as
   /// `sum lambda_i f_i + (sum lambda_i s_i) sum lambda_i g_i·P(x - x_i)/2`, P across
-  /// `sum lambda_i g_i`: continuous, and exact for distances from quadratic surfaces but for terms of
-  /// third order where s = 1. Along its gradient a distance is linear; what is not, as where the velocity that
+  /// `sum lambda_i g_i`: continuous, and exact for distances from curved surfaces but for terms of
+  /// higher order where s = 1. Along its gradient a distance is linear; what is not, as where the velocity that
   /// moved it has a kink, is an error that the surface between two nodes does not show. With a correction e it is
   /// f + e, limited to the values of f at the nodes of the cell.
   template <int dim>
