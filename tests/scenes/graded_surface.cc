@@ -194,6 +194,28 @@ namespace
           << std::endl;
   }
 
+  /// A millionth of a metre of wave on a pool, past leaves that become four times as large: as fast in the last half second as in the first.
+  void
+  tremble(const MPI_Comm &comm)
+  {
+    const auto rows = run_scene<2>(comm,
+                                   "set End time = 2\nset Frame interval = 2\nset Maximum time step = 0.1\nset Maximum CFL number = 2\n"
+                                   "subsection Domain\nset Lower corner = -1, 0\nset Upper corner = 1, 1\n"
+                                   "set Wall condition = free slip\nend\n"
+                                   "subsection Mesh\nset Surface level = 5\nset Coarsest surface level = 3\n"
+                                   "set Interior level = 3\nset Air level = 2\nset Leaves across = 0\n"
+                                   "set Leaves per radius = 0\nset Size = if(x < 0, 0.03, 1)\nend\n"
+                                   "subsection Material\nset Density = 1\nset Viscosity = 0\nend\n"
+                                   "subsection Liquid 1\nset Shape = expression\n"
+                                   "set Expression = y - 0.53 - 1e-6*cos(pi/2*x)\nend\n");
+    double first = 0, last = 0;
+    for (const Row &row : rows)
+      for (const auto &[speed, is_there] : {std::pair(&first, row.at("Time (s)") < 0.5), {&last, row.at("Time (s)") > 1.5}})
+        if (is_there)
+          *speed = std::max(*speed, row.at("Maximum speed (m/s)"));
+    out() << "2D: tiny waves at a jump, steps " << rows.size() - 1 << ": " << (last < 2 * first ? "stay" : "GROW") << std::endl;
+  }
+
   /// A packet of waves comes to where leaves become four times as large, 32 of these a wave; what a probe before that
   /// sees come back, beside the same with fine leaves all along.
   void
@@ -244,6 +266,7 @@ start(const int, char **)
     sizes<3>(comm);
     drag<2>(comm);
     overturn(comm);
+    tremble(comm);
   });
   if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
     wave(MPI_COMM_SELF);
