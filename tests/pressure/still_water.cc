@@ -4,7 +4,7 @@
 // Water at rest on a graded mesh with a sphere immersed, flat and with gravity
 // tilted as the surface is: it stays at rest to rounding where no theta is
 // clamped (case C1 of the verification); without viscosity, its surface on the sides of leaves, where dual centres are,
-// to what the clamped ones make. Argument: number of steps, level.
+// to what the clamped ones make. A full box in a force that has a potential, also on leaves of three sizes. Argument: number of steps, level.
 
 #include "../tests.h"
 #include "../run_scene.h"
@@ -65,6 +65,25 @@ check(const MPI_Comm &comm, const Surface surface, const unsigned int n_steps, c
         << " sqrt(g h)" << std::endl;
 }
 
+/// A force of the fourth degree's potential, which no constant is.
+template <int dim>
+void
+full(const MPI_Comm &comm)
+{
+  const auto rows = run_scene<dim>(comm,
+                                   "set End time = 0.2\nset Frame interval = 0.2\nset Maximum time step = 0.1\n"
+                                   "subsection Domain\nset Wall condition = free slip\nend\n"
+                                   "subsection Mesh\nset Surface level = 4\nset Interior level = 2\n"
+                                   "set Size = if(sqrt((x - 0.3)^2 + (y - 0.3)^2) < 0.1, 0.06, 1)\nend\n"
+                                   "subsection Gravity\nset Acceleration = -9*(x - 0.4)^3; 5*(y - 0.4)" +
+                                     std::string(dim == 2 ? "" : "; 3 - z") +
+                                     "\nend\nsubsection Material\nset Density = 1\nset Viscosity = 0\nend\n"
+                                     "subsection Liquid 1\nset Shape = expression\nset Expression = -1\nend\n" +
+                                     tolerance("1e-13"));
+  out() << dim << "D full: speed " << (rows.back().at("Maximum speed (m/s)") < 1e-9 ? "below 1e-9" : "TOO LARGE") << " m/s"
+        << std::endl;
+}
+
 void
 start(const int argc, char **argv)
 {
@@ -76,6 +95,8 @@ start(const int argc, char **argv)
         check<2>(comm, surface, n_steps, level);
         check<3>(comm, surface, n_steps, level);
       }
+    full<2>(comm);
+    full<3>(comm);
   });
 }
 
