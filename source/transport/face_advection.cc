@@ -3,6 +3,7 @@
 
 #include <treacle/transport/face_advection.h>
 #include <treacle/transport/face_residual.h>
+#include <treacle/transport/velocity_curvature.h>
 
 namespace treacle
 {
@@ -152,12 +153,21 @@ namespace treacle
       });
     };
     CarriedFields<dim> now   = carry(fields_of(old.v), velocity.carried, difference.dt);
-    Paths              paths = paths_to(std::move(ends), now);
+    std::optional<VelocityCurvature<dim>> curvature, curvature_before;
+    // a scheme's corrections do the same, and faces of another mesh have no nodes here
+    const Vector bends = now.corrections.empty() && &mesh == old.mesh.get() ? bending_nodes(domain, difference.dt) : Vector();
+    if (bends.size() > 0 && bends.linfty_norm() > 0)
+      curvature.emplace(mesh, old.v, bends).add_to(now.fields);
+    Paths paths = paths_to(std::move(ends), now);
     add(faces.liquid, 1, paths.values);
+    for (auto f = faces.liquid; curvature && f != faces.all.end(); ++f)
+      state.u.local_element(*f) -= mesh.face_normal[*f] * curvature->at_face(*f);
     keep_what_nodes_miss(old, domain, difference, mesh, faces.all, state.u);
     std::optional<Past> past;
     if (difference.before != 0)
       past.emplace(this->past(std::move(now)));
+    if (past && curvature)
+      curvature_before.emplace(mesh, *old.before->v, bends).add_to(past->before.fields);
     const AtNodes nodes = past ? at_nodes(past->now, &*past, mesh, {faces.all.begin(), faces.deep}) :
                                  at_nodes(now, nullptr, mesh, {faces.all.begin(), faces.liquid});
     add_of_nodes(faces.liquid, 1, nodes.now);

@@ -20,8 +20,9 @@ namespace treacle
   /// `sum lambda_i f_i + (sum lambda_i s_i) sum lambda_i g_i·P(x - x_i)/2`, P across
   /// `sum lambda_i g_i`: continuous, and exact for distances from curved surfaces but for terms of
   /// higher order where s = 1. Along its gradient a distance is linear; what is not, as where the velocity that
-  /// moved it has a kink, is an error that the surface between two nodes does not show. With a correction e it is
-  /// f + e, limited to the values of f at the nodes of the cell.
+  /// moved it has a kink, is an error that the surface between two nodes does not show. What is no distance bends in all directions
+  /// between nodes that have a smoothness, by `1/2 sum_(i<j) s_i s_j lambda_i lambda_j (g_i - g_j)·(x_j - x_i)`: continuous, linear where g is
+  /// the same, quadratic where it is linear. With a correction e it is f + e, limited to the values of f at the nodes of the cell.
   template <int dim>
   struct NodeField
   {
@@ -29,6 +30,7 @@ namespace treacle
     const NodeVector<dim> *gradient   = nullptr;
     const Vector          *smoothness = nullptr;
     const Vector          *correction = nullptr;
+    bool                   is_distance = true;
   };
 
   /// Its components.
@@ -144,9 +146,13 @@ namespace treacle
                        const std::vector<NodeField<dim>> &fields,
                        std::vector<double>               &values) const;
 
-    /// What the nodal gradients of a field add to the mean of its nodes.
+    /// What the nodal gradients of a field add to the mean of its nodes, if it is a distance.
     double
     above_chord(const Location<dim> &location, const NodeField<dim> &field) const;
+
+    /// The same of one that is none.
+    double
+    above_plane(const Location<dim> &location, const NodeField<dim> &field) const;
 
     void
     evaluate_here(const Location<dim>               &location,

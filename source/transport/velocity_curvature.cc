@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/fields/gradients.h>
+#include <treacle/transport/velocity_curvature.h>
+
+namespace treacle
+{
+  template <int dim>
+  Vector
+  bending_nodes(const LiquidDomain<dim> &domain, const double dt)
+  {
+    constexpr double full = 1 - 1e-9; // of a cell
+    constexpr double most = 10;       // squares of a leaf
+    const Mesh<dim> &mesh = domain.mesh;
+    Vector           bends(mesh.nodes);
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      bends.local_element(node) = std::all_of(
+        mesh.node_cells.begin() + mesh.node_cell_start[node],
+        mesh.node_cells.begin() + mesh.node_cell_start[node + 1],
+        [&](const LocalIndex c) {
+          return domain.liquid_volume[c] > full * mesh.cell_volume[c] &&
+                 domain.viscosity[c] * dt < most * domain.density[c] * mesh.cell_size[c] * mesh.cell_size[c];
+        });
+    bends.update_ghost_values();
+    return bends;
+  }
+
+  template <int dim>
+  VelocityCurvature<dim>::VelocityCurvature(const Mesh<dim> &mesh, const NodeVector<dim> &v, const Vector &bends)
+    : mesh(mesh)
+    , bends(bends)
+    , gradient(dim, NodeVector<dim>(mesh.nodes))
+  {
+    const auto mean = means_at_nodes(mesh, [&](const LocalIndex c) { return velocity_gradient(mesh, c, v); });
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+          gradient[d].set(node, mean[node][d]);
+        gradient[d].update_ghost_values();
+      }
+  }
+
+  template <int dim>
+  void
+  VelocityCurvature<dim>::add_to(std::vector<NodeField<dim>> &fields) const
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        fields[d].gradient    = &gradient[d];
+        fields[d].smoothness  = &bends;
+        fields[d].is_distance = false;
+      }
+  }
+
+  template <int dim>
+  Tensor<1, dim>
+  VelocityCurvature<dim>::at_face(const LocalIndex face) const
+  {
+    Tensor<1, dim> above;
+    const auto    &nodes = mesh.face_nodes[face];
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < i; ++j)
+        if (bends.local_element(nodes[i]) > 0 && bends.local_element(nodes[j]) > 0)
+          for (unsigned int d = 0; d < dim; ++d)
+            above[d] += (gradient[d].value(nodes[i]) - gradient[d].value(nodes[j])) *
+                        (mesh.node_position[nodes[j]] - mesh.node_position[nodes[i]]);
+    return above / (2 * dim * dim);
+  }
+
+  template Vector bending_nodes(const LiquidDomain<2> &, const double);
+  template Vector bending_nodes(const LiquidDomain<3> &, const double);
+  template class VelocityCurvature<2>;
+  template class VelocityCurvature<3>;
+} // namespace treacle
