@@ -79,25 +79,25 @@ namespace treacle
 
   template <int dim>
   typename FaceAdvection<dim>::Paths
-  FaceAdvection<dim>::paths_to(PathEnds<dim> &&ends, const CarriedFields<dim> &now) const
+  FaceAdvection<dim>::paths_to(PathEnds<dim> &&ends, const std::vector<NodeField<dim>> &now) const
   {
     const Tracer<dim> tracer(*old.mesh);
     Paths             paths{tracer.trace(ends.x, velocity.carried, -difference.dt, ends.cells, ends.velocity), {}, {}};
-    paths.values = tracer.evaluate(paths.from, now.fields, ends.cells);
+    paths.values = tracer.evaluate(paths.from, now, ends.cells);
     paths.cells  = std::move(ends.cells);
     return paths;
   }
 
   template <int dim>
   std::vector<double>
-  FaceAdvection<dim>::change_along(Paths &&paths, const Past &past) const
+  FaceAdvection<dim>::change_along(Paths &&paths, const Past &past, const std::vector<NodeField<dim>> &before) const
   {
     const Tracer<dim> tracer(*old.mesh);
     Guesses           cells   = paths.cells;
     const auto        further = tracer.trace(paths.from, past.between, -old.before->dt, paths.cells);
-    const auto        before  = tracer.evaluate(further, past.before.fields, paths.cells);
+    const auto        values  = tracer.evaluate(further, before, paths.cells);
     std::transform(
-      paths.values.begin(), paths.values.end(), before.begin(), paths.values.begin(), std::minus<>());
+      paths.values.begin(), paths.values.end(), values.begin(), paths.values.begin(), std::minus<>());
     past.fall.set_change(paths.values, paths.from, cells, old.before->dt);
     return std::move(paths.values);
   }
@@ -128,10 +128,10 @@ namespace treacle
         v.component[i % dim].local_element(nodes[i / dim]) = values[i];
       v.update_ghost_values();
     };
-    Paths paths = paths_to(std::move(ends), now);
+    Paths paths = paths_to(std::move(ends), now.fields);
     set(result.now, paths.values);
     if (past != nullptr)
-      set(result.change, change_along(std::move(paths), *past));
+      set(result.change, change_along(std::move(paths), *past, past->before.fields));
     return result;
   }
 
@@ -152,22 +152,19 @@ namespace treacle
         state.u.local_element(f) += weight * face_velocity(mesh, v, f);
       });
     };
-    CarriedFields<dim> now   = carry(fields_of(old.v), velocity.carried, difference.dt);
-    std::optional<VelocityCurvature<dim>> curvature, curvature_before;
+    CarriedFields<dim> now = carry(fields_of(old.v), velocity.carried, difference.dt);
     // a scheme's corrections do the same, and faces of another mesh have no nodes here
     const Vector bends = now.corrections.empty() && &mesh == old.mesh.get() ? bending_nodes(domain, difference.dt) : Vector();
-    if (bends.size() > 0 && bends.linfty_norm() > 0)
-      curvature.emplace(mesh, old.v, bends).add_to(now.fields);
-    Paths paths = paths_to(std::move(ends), now);
+    const VelocityCurvature<dim> curvature(mesh, old.v, bends);
+    Paths paths = paths_to(std::move(ends), curvature.bent(now.fields));
     add(faces.liquid, 1, paths.values);
-    for (auto f = faces.liquid; curvature && f != faces.all.end(); ++f)
-      state.u.local_element(*f) -= mesh.face_normal[*f] * curvature->at_face(*f);
+    std::for_each(faces.liquid, faces.all.end(), [&](const LocalIndex f) {
+      state.u.local_element(f) -= mesh.face_normal[f] * curvature.at_face(f);
+    });
     keep_what_nodes_miss(old, domain, difference, mesh, faces.all, state.u);
     std::optional<Past> past;
     if (difference.before != 0)
       past.emplace(this->past(std::move(now)));
-    if (past && curvature)
-      curvature_before.emplace(mesh, *old.before->v, bends).add_to(past->before.fields);
     const AtNodes nodes = past ? at_nodes(past->now, &*past, mesh, {faces.all.begin(), faces.deep}) :
                                  at_nodes(now, nullptr, mesh, {faces.all.begin(), faces.liquid});
     add_of_nodes(faces.liquid, 1, nodes.now);
@@ -175,7 +172,8 @@ namespace treacle
       {
         add_of_nodes(faces.deep, -difference.before, nodes.change);
         paths.drop(faces.deep - faces.liquid);
-        add(faces.deep, -difference.before, change_along(std::move(paths), *past));
+        const VelocityCurvature<dim> curvature_before(mesh, *old.before->v, bends);
+        add(faces.deep, -difference.before, change_along(std::move(paths), *past, curvature_before.bent(past->before.fields)));
       }
     state.u.update_ghost_values();
   }

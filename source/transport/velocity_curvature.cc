@@ -22,6 +22,8 @@ namespace treacle
           return domain.liquid_volume[c] > full * mesh.cell_volume[c] &&
                  domain.viscosity[c] * dt < most * domain.density[c] * mesh.cell_size[c] * mesh.cell_size[c];
         });
+    if (bends.linfty_norm() == 0)
+      return {};
     bends.update_ghost_values();
     return bends;
   }
@@ -30,8 +32,10 @@ namespace treacle
   VelocityCurvature<dim>::VelocityCurvature(const Mesh<dim> &mesh, const NodeVector<dim> &v, const Vector &bends)
     : mesh(mesh)
     , bends(bends)
-    , gradient(dim, NodeVector<dim>(mesh.nodes))
   {
+    if (bends.size() == 0)
+      return;
+    gradient.assign(dim, NodeVector<dim>(mesh.nodes));
     const auto mean = means_at_nodes(mesh, [&](const LocalIndex c) { return velocity_gradient(mesh, c, v); });
     for (unsigned int d = 0; d < dim; ++d)
       {
@@ -42,15 +46,16 @@ namespace treacle
   }
 
   template <int dim>
-  void
-  VelocityCurvature<dim>::add_to(std::vector<NodeField<dim>> &fields) const
+  std::vector<NodeField<dim>>
+  VelocityCurvature<dim>::bent(std::vector<NodeField<dim>> fields) const
   {
-    for (unsigned int d = 0; d < dim; ++d)
+    for (unsigned int d = 0; d < gradient.size(); ++d)
       {
         fields[d].gradient    = &gradient[d];
         fields[d].smoothness  = &bends;
         fields[d].is_distance = false;
       }
+    return fields;
   }
 
   template <int dim>
@@ -61,7 +66,7 @@ namespace treacle
     const auto    &nodes = mesh.face_nodes[face];
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < i; ++j)
-        if (bends.local_element(nodes[i]) > 0 && bends.local_element(nodes[j]) > 0)
+        if (!gradient.empty() && bends.local_element(nodes[i]) > 0 && bends.local_element(nodes[j]) > 0)
           for (unsigned int d = 0; d < dim; ++d)
             above[d] += (gradient[d].value(nodes[i]) - gradient[d].value(nodes[j])) *
                         (mesh.node_position[nodes[j]] - mesh.node_position[nodes[i]]);

@@ -67,11 +67,11 @@ namespace treacle
     };
 
     Paths
-    paths_to(PathEnds<dim> &&ends, const CarriedFields<dim> &now) const;
+    paths_to(PathEnds<dim> &&ends, const std::vector<NodeField<dim>> &now) const;
 
-    /// By how much the velocity changed in the step before along these paths, in place of the values.
+    /// By how much the velocity changed in the step before along these paths, from what it was @p before, in place of the values.
     std::vector<double>
-    change_along(Paths &&paths, const Past &past) const;
+    change_along(Paths &&paths, const Past &past, const std::vector<NodeField<dim>> &before) const;
 
     /// The velocity of now where nodes come from, and by how much it changed in the step before along their paths.
     struct AtNodes

@@ -10,7 +10,8 @@
 namespace treacle
 {
   /// 1 at nodes between which a velocity bends: all of their cells are full of liquid, of which viscosity spreads momentum over no more
-  /// than three leaves in a step of size @p dt (s). In what is stiffer it takes far more than is read wrongly. Collective.
+  /// than three leaves in a step of size @p dt (s). In what is stiffer it takes far more than is read wrongly. Empty if there are none.
+  /// Collective.
   template <int dim>
   Vector
   bending_nodes(const LiquidDomain<dim> &domain, const double dt);
@@ -22,12 +23,12 @@ namespace treacle
   class VelocityCurvature
   {
   public:
-    /// Of v (m/s), with up-to-date ghosts, between bending_nodes(), which it refers to. Collective.
+    /// Of v (m/s), with up-to-date ghosts, between bending_nodes(), which it refers to; without any it is linear. Collective.
     VelocityCurvature(const Mesh<dim> &mesh, const NodeVector<dim> &v, const Vector &bends);
 
-    /// To the fields of the components of v. Must outlive them.
-    void
-    add_to(std::vector<NodeField<dim>> &fields) const;
+    /// The fields of the components of v with it. Must outlive them.
+    std::vector<NodeField<dim>>
+    bent(std::vector<NodeField<dim>> fields) const;
 
     /// What it adds to the mean of the nodes of a face at its centre (m/s).
     Tensor<1, dim>
@@ -36,7 +37,7 @@ namespace treacle
   private:
     const Mesh<dim>             &mesh;
     const Vector                &bends;
-    std::vector<NodeVector<dim>> gradient; ///< of each component (1/s)
+    std::vector<NodeVector<dim>> gradient; ///< of each component (1/s); none if it is linear
   };
 } // namespace treacle
 
