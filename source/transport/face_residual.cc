@@ -55,6 +55,7 @@ namespace treacle
       constexpr double within = 1.1; // leaves; nodes lie at 1
       const Mesh<dim> &mesh   = domain.mesh;
       Vector           there(mesh.nodes), around(mesh.nodes);
+      around.update_ghost_values();
       if (!mesh.is_lattice() || mesh.surface_size() == mesh.finest_size())
         return around;
       for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
