@@ -35,7 +35,8 @@ namespace treacle
   /// What the nodes do not know of the old velocity of some owned faces of a @p mesh, in the manner of the backward
   /// difference, is added to what they have of it, @p u: as long as the liquid does
   /// not get from one face to the next. Dropped in each step, it would be lost the faster the smaller the
-  /// steps are. Faces that the old mesh did not have get nothing. Collective.
+  /// steps are. Faces that the old mesh did not have get nothing, those where leaves change size along the surface no more than smooth flows
+  /// have: waves would grow there. Collective.
   template <int dim>
   void
   keep_what_nodes_miss(const State<dim>              &old,
