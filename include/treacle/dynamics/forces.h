@@ -32,14 +32,14 @@ namespace treacle
     static double
     along_dual_edge(const LiquidDomain<dim> &domain, const LocalIndex f, const double time)
     {
-      const Mesh<dim>     &mesh    = domain.mesh;
-      const auto          &[first, second] = mesh.face_cells[f];
-      const bool           forward = domain.is_pressure_cell[first], is_whole = forward == domain.is_pressure_cell[second];
-      const Tensor<1, dim> edge    = (is_whole ? 1 : domain.theta[f]) * mesh.face_dual_length[f] * mesh.face_normal[f];
+      const Mesh<dim> &mesh           = domain.mesh;
+      const auto &[first, second]     = mesh.face_cells[f];
+      const bool           from_first = domain.is_pressure_cell[first], is_whole = from_first == domain.is_pressure_cell[second];
+      const Tensor<1, dim> edge       = (is_whole ? 1 : domain.theta[f]) * mesh.face_dual_length[f] * mesh.face_normal[f];
       const Point<dim>     middle =
-        forward || is_whole ? mesh.cell_dual[first] + 0.5 * edge : mesh.cell_dual[second] - 0.5 * edge;
+        from_first || is_whole ? mesh.cell_dual[first] + 0.5 * edge : mesh.cell_dual[second] - 0.5 * edge;
       const Tensor<1, dim> to_point = edge / (2 * std::sqrt(3.));
-      const auto           g        = [&](const Point<dim> &x) { return domain.scene.gravity(x, time) * mesh.face_normal[f]; };
+      const auto           g = [&](const Point<dim> &x) { return domain.scene.gravity(x, time) * mesh.face_normal[f]; };
       return 0.5 * (g(middle - to_point) + g(middle + to_point));
     }
   };
