@@ -60,26 +60,6 @@ namespace treacle
   }
 
   template <int dim>
-  double
-  Tracer<dim>::above_plane(const Location<dim> &location, const NodeField<dim> &field) const
-  {
-    const auto                         &nodes = mesh.cell_nodes[location.cell];
-    std::array<Tensor<1, dim>, dim + 1> gradient;
-    VertexValues<dim>                   weight;
-    for (unsigned int i = 0; i <= dim; ++i)
-      {
-        gradient[i] = field.gradient->value(nodes[i]);
-        weight[i]   = location.lambda[i] * field.smoothness->local_element(nodes[i]);
-      }
-    double above = 0;
-    for (unsigned int i = 0; i <= dim; ++i)
-      for (unsigned int j = 0; j < i; ++j)
-        above += weight[i] * weight[j] *
-                 ((gradient[i] - gradient[j]) * (mesh.node_position[nodes[j]] - mesh.node_position[nodes[i]]));
-    return above / 2;
-  }
-
-  template <int dim>
   void
   Tracer<dim>::evaluate_here(const Location<dim>               &location,
                              const std::vector<NodeField<dim>> &fields,
@@ -97,8 +77,15 @@ namespace treacle
               result[k] += location.lambda[i] * e[i];
             result[k] = std::clamp(result[k], *low, *high);
           }
-        if (fields[k].gradient != nullptr)
-          result[k] += fields[k].is_distance ? above_chord(location, fields[k]) : above_plane(location, fields[k]);
+        if (fields[k].gradient != nullptr && fields[k].is_distance)
+          result[k] += above_chord(location, fields[k]);
+        else if (fields[k].gradient != nullptr)
+          {
+            VertexValues<dim> weight = mesh.values(location.cell, *fields[k].smoothness);
+            for (unsigned int i = 0; i <= dim; ++i)
+              weight[i] *= location.lambda[i];
+            result[k] += above_plane(mesh, mesh.cell_nodes[location.cell], weight, *fields[k].gradient);
+          }
       }
   }
 

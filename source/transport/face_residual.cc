@@ -47,28 +47,23 @@ namespace treacle
       return largest > twice * smallest ? largest : 0.;
     }
 
-    /// 1 at nodes within about a leaf of the surface around which leaves change size, and at those of the cells around them. Collective.
+    /// 1 at nodes within about a leaf of the surface around which leaves change size, and at those of the cells around them. Empty
+    /// where the surface has leaves of one size. Collective.
     template <int dim>
     Vector
     where_leaves_change(const State<dim> &state, const LiquidDomain<dim> &domain)
     {
       constexpr double within = 1.1; // leaves; nodes lie at 1
       const Mesh<dim> &mesh   = domain.mesh;
-      Vector           there(mesh.nodes), around(mesh.nodes);
-      around.update_ghost_values();
       if (!mesh.is_lattice() || mesh.surface_size() == mesh.finest_size())
-        return around;
+        return {};
+      Vector there(mesh.nodes), around(mesh.nodes);
       for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
         there.local_element(node) = std::abs(state.phi.local_element(node)) < within * size_where_leaves_change(mesh, node);
       there.update_ghost_values();
       for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-        {
-          const auto &neighbours = domain.data.neighbours(node);
-          around.local_element(node) =
-            there.local_element(node) > 0 || std::any_of(neighbours.begin(), neighbours.end(), [&](const auto &neighbour) {
-              return there.local_element(neighbour.node) > 0;
-            });
-        }
+        around.local_element(node) =
+          any_around(domain.data, node, [&](const LocalIndex other) { return there.local_element(other) > 0; });
       around.update_ghost_values();
       return around;
     }
@@ -168,7 +163,7 @@ namespace treacle
           const double all = part_kept(old, f, difference.dt) *
                              (std::isnan(before) ? now : difference.now * now + difference.before * before);
           const bool   leaves_change =
-            std::any_of(mesh.face_nodes[f].begin(), mesh.face_nodes[f].end(), [&](const LocalIndex node) {
+            is_graded.size() > 0 && std::any_of(mesh.face_nodes[f].begin(), mesh.face_nodes[f].end(), [&](const LocalIndex node) {
               return is_graded.local_element(node) > 0;
             });
           const double most     = leaves_change ? most_there(old, f) : std::abs(all);

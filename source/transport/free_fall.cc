@@ -7,21 +7,6 @@
 
 namespace treacle
 {
-  namespace
-  {
-    /// Is a predicate true of a node of the cells around an owned node?
-    template <int dim, typename Predicate>
-    bool
-    any_around(const Mesh<dim> &mesh, const LocalIndex node, const Predicate &is)
-    {
-      for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
-        if (const auto &nodes = mesh.cell_nodes[mesh.node_cells[k]];
-            std::any_of(nodes.begin(), nodes.end(), is))
-          return true;
-      return false;
-    }
-  } // namespace
-
   template <int dim>
   FreeFall<dim>::FreeFall(const State<dim> &state, const LiquidDomain<dim> &domain)
     : domain(domain)
@@ -40,13 +25,13 @@ namespace treacle
           continue;
         const double deep = -0.5 * surface_size_at_node(mesh, node);
         value = phi(node) < -2 * deep &&
-                any_around(mesh, node, [&](const auto other) { return phi(other) <= deep; });
+                any_around(domain.data, node, [&](const auto other) { return phi(other) <= deep; });
       }
     is_deep.update_ghost_values();
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
       held.local_element(node) = // what is far is deep, or air about nothing
         is_far(node) || phi(node) >= surface_size_at_node(mesh, node) ||
-        any_around(mesh, node, [&](const auto other) { return is_deep.local_element(other) > 0; });
+        any_around(domain.data, node, [&](const auto other) { return is_deep.local_element(other) > 0; });
     held.update_ghost_values();
   }
 

@@ -62,15 +62,17 @@ namespace treacle
   Tensor<1, dim>
   VelocityCurvature<dim>::at_face(const LocalIndex face) const
   {
+    if (gradient.empty())
+      return {};
+    const auto             &nodes = mesh.face_nodes[face];
+    std::array<double, dim> weight;
+    std::transform(nodes.begin(), nodes.end(), weight.begin(), [this](const LocalIndex node) {
+      return bends.local_element(node) / dim;
+    });
     Tensor<1, dim> above;
-    const auto    &nodes = mesh.face_nodes[face];
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < i; ++j)
-        if (!gradient.empty() && bends.local_element(nodes[i]) > 0 && bends.local_element(nodes[j]) > 0)
-          for (unsigned int d = 0; d < dim; ++d)
-            above[d] += (gradient[d].value(nodes[i]) - gradient[d].value(nodes[j])) *
-                        (mesh.node_position[nodes[j]] - mesh.node_position[nodes[i]]);
-    return above / (2 * dim * dim);
+    for (unsigned int d = 0; d < dim; ++d)
+      above[d] = above_plane(mesh, nodes, weight, gradient[d]);
+    return above;
   }
 
   template Vector bending_nodes(const LiquidDomain<2> &, const double);

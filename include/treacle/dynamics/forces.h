@@ -11,7 +11,7 @@ namespace treacle
 {
   /// Body force: `u += step g·n` in the mean over the liquid part of the dual edges of liquid faces, by two points after Gauss. There
   /// a force that has a potential is the difference of that, so that pressure holds it; at the barycentres of faces, through which dual
-  /// edges need not go, a formula with x in it would turn what it pulls to its centre.
+  /// edges need not go, a formula with x in it would stir liquid that should rest.
   template <int dim>
   class Forces
   {

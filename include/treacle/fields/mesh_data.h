@@ -64,6 +64,16 @@ namespace treacle
     mutable std::optional<NodeVector<dim>> gradient_points;
   };
 
+  /// Is a predicate true of an owned node or of a neighbour of it?
+  template <int dim, typename Predicate>
+  bool
+  any_around(const MeshData<dim> &data, const LocalIndex node, const Predicate &is)
+  {
+    const auto neighbours = data.neighbours(node);
+    return is(node) ||
+           std::any_of(neighbours.begin(), neighbours.end(), [&](const auto &neighbour) { return is(neighbour.node); });
+  }
+
   /// The mean of @p value (other node) over the neighbours of an owned node that
   /// @p counts holds for, each as often as they share a cell; false if there are none.
   template <int dim, typename Counts, typename Value, typename Result>

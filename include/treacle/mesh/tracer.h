@@ -33,6 +33,24 @@ namespace treacle
     bool                   is_distance = true;
   };
 
+  /// By how much a field that is no distance bends away from the mean of some nodes of a cell, with their @p weight s lambda.
+  template <int dim, std::size_t n>
+  double
+  above_plane(const Mesh<dim>                  &mesh,
+              const std::array<LocalIndex, n> &nodes,
+              const std::array<double, n>     &weight,
+              const NodeVector<dim>           &gradient)
+  {
+    std::array<Tensor<1, dim>, n> g;
+    for (unsigned int i = 0; i < n; ++i)
+      g[i] = gradient.value(nodes[i]);
+    double above = 0;
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < i; ++j)
+        above += weight[i] * weight[j] * ((g[i] - g[j]) * (mesh.node_position[nodes[j]] - mesh.node_position[nodes[i]]));
+    return above / 2;
+  }
+
   /// Its components.
   template <int dim>
   std::vector<NodeField<dim>>
@@ -146,13 +164,9 @@ namespace treacle
                        const std::vector<NodeField<dim>> &fields,
                        std::vector<double>               &values) const;
 
-    /// What the nodal gradients of a field add to the mean of its nodes, if it is a distance.
+    /// What the nodal gradients of a distance add to the mean of its nodes.
     double
     above_chord(const Location<dim> &location, const NodeField<dim> &field) const;
-
-    /// The same of one that is none.
-    double
-    above_plane(const Location<dim> &location, const NodeField<dim> &field) const;
 
     void
     evaluate_here(const Location<dim>               &location,
