@@ -3,6 +3,7 @@
 
 #include <treacle/base/choice.h>
 #include <treacle/base/exchange.h>
+#include <treacle/fields/dual_density.h>
 #include <treacle/fields/face_opening.h>
 #include <treacle/fields/gradients.h>
 #include <treacle/fields/held_nodes.h>
@@ -192,10 +193,12 @@ namespace treacle
         double      &t      = part.local_element(f);
         t                   = std::max(actual, minimum_theta);
         n_clamped += actual < minimum_theta;
-        const double rho = (is_active_cell[i] ? density[i] : density[j]) / 2 +
-                           (is_active_cell[j] ? density[j] : density[i]) / 2;
-        mass.local_element(f) =
-          rho * open_fraction[f] * mesh.face_area[f] * t * mesh.face_dual_length[f];
+        keep_error(error, [&] {
+          const double rho = is_pressure_cell[i] || is_pressure_cell[j] ? mean_density(scene, state, f, liquid_part(f, t)) :
+                                                                          (is_active_cell[i] ? density[i] : density[j]) / 2 +
+                                                                            (is_active_cell[j] ? density[j] : density[i]) / 2;
+          mass.local_element(f) = rho * open_fraction[f] * mesh.face_area[f] * t * mesh.face_dual_length[f];
+        });
       }
     throw_first(mesh.communicator(), error);
     n_clamped_faces = Utilities::MPI::sum(n_clamped, mesh.communicator());

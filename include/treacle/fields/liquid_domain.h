@@ -7,6 +7,7 @@
 #include <treacle/fields/cut_cells.h>
 #include <treacle/fields/mesh_data.h>
 #include <treacle/fields/state.h>
+#include <treacle/mesh/dual_part.h>
 
 #include <map>
 
@@ -64,7 +65,7 @@ namespace treacle
     // -- faces --
     std::vector<double> open_fraction; ///< alpha: part of the area outside solids and emitters
     std::vector<double> theta;         ///< liquid part of the dual edge, which may go on to the surface; of free faces that of the volume
-    std::vector<double> face_mass;     ///< M_f = rho alpha A theta L (kg); 0: no unknown
+    std::vector<double> face_mass;     ///< M_f = rho alpha A theta L (kg), rho along the liquid part; 0: no unknown
     /// Normal velocity where there is no unknown: of walls, solids, emitters.
     std::vector<double> solid_velocity;
     unsigned int        n_clamped_faces = 0; ///< theta clamped, over all ranks
@@ -104,6 +105,16 @@ namespace treacle
     {
       const auto [i, j] = mesh.face_cells[face];
       return is_free_cell[i] + is_free_cell[j] == is_active_cell[i] + is_active_cell[j];
+    }
+
+    /// Of the dual edge of a face @p part, from the liquid's dual centre on; all of it where the pressure of both cells is liquid, or of neither.
+    DualPart<dim>
+    liquid_part(const LocalIndex face, const double part) const
+    {
+      const auto &[i, j]    = mesh.face_cells[face];
+      const bool from_first = is_pressure_cell[i], is_whole = from_first == is_pressure_cell[j];
+      const Tensor<1, dim> edge = (is_whole ? 1 : part) * mesh.face_dual_length[face] * mesh.face_normal[face];
+      return from_first || is_whole ? DualPart<dim>{mesh.cell_dual[i], edge} : DualPart<dim>{mesh.cell_dual[j], -edge};
     }
 
     /// Of the volume of the cell.

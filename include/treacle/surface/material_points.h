@@ -54,11 +54,12 @@ namespace treacle
       /// Largest less smallest value anywhere.
       double spread = 0;
 
+      /// Not by roundoff: leaves of a quarter of the box with something linear are no jump on any rank.
       bool
       jumps(const double least, const double largest) const
       {
-        return largest > least_jump * least ||
-               largest - least > std::max(0.25 * spread, 1e-9 * largest); // more than roundoff
+        constexpr double more = 1 + 1e-9;
+        return largest > more * least_jump * least || largest - least > std::max(0.25 * more * spread, 1e-9 * largest);
       }
     };
 
