@@ -150,7 +150,7 @@ namespace treacle
           keep_error(error, [&] { find_material(c, state); });
       }
     throw_first(mesh.communicator(), error);
-    soften_jumps(scene, state, solid_distance, liquid_volume, viscosity);
+    viscosity_jumps = soften_jumps(scene, state, solid_distance, cut_cells, liquid_volume, viscosity);
   }
 
   template <int dim>

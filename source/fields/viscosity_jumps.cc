@@ -2,8 +2,8 @@
 // Copyright (C) the Treacle authors
 
 #include <treacle/base/exchange.h>
-#include <treacle/fields/carried_in_cell.h>
 #include <treacle/fields/viscosity_jumps.h>
+#include <treacle/geometry/cut_simplex.h>
 
 namespace treacle
 {
@@ -89,6 +89,15 @@ namespace treacle
         return most > least_jump * least;
       }
 
+      /// Where jumps() has been asked.
+      std::optional<ViscosityJump<dim>>
+      jump(const LocalIndex c) const
+      {
+        return find_jump<dim>(mesh.cell_vertices(c), mesh.values(c, at_node), [this](const Point<dim> &x) {
+          return scene.viscosity(x, time);
+        });
+      }
+
       double
       value(const LocalIndex c, const VertexValues<dim> &lambda) const
       {
@@ -106,20 +115,42 @@ namespace treacle
       const double        time;
       std::vector<double> at_node;
     };
+
+    /// How much of a cell's liquid there is on the sides of a jump; false if there is none.
+    template <int dim>
+    bool
+    measure_parts(const State<dim> &state, const LocalIndex c, ViscosityJump<dim> &jump)
+    {
+      const Simplex<dim>      x   = state.mesh->cell_vertices(c);
+      const VertexValues<dim> phi = state.mesh->values(c, state.phi);
+      VertexValues<dim>       other_way;
+      std::transform(jump.distance.begin(), jump.distance.end(), other_way.begin(), std::negate<>());
+      jump.part        = {{liquid_moments<dim>(x, phi, other_way).volume, liquid_moments<dim>(x, phi, jump.distance).volume}};
+      const double all = jump.part[0] + jump.part[1];
+      for (double &part : jump.part)
+        part /= all;
+      return all > 0;
+    }
   } // namespace
 
   template <int dim>
-  void
+  std::map<LocalIndex, ViscosityJump<dim>>
   soften_jumps(const Scene<dim>          &scene,
                const State<dim>          &state,
                const std::vector<double> &solid_distance,
+               const CutCells<dim>       &cut_cells,
                const std::vector<double> &liquid_volume,
                std::vector<double>       &viscosity)
   {
+    std::map<LocalIndex, ViscosityJump<dim>> jumps;
     if (!state.material && scene.has_constant_viscosity())
-      return;
-    const auto soften = [&](const LocalIndex c, const auto &value) {
+      return jumps;
+    const Mesh<dim> &mesh   = *state.mesh;
+    const auto       soften = [&](const LocalIndex c, const auto &value, const auto &find) {
       viscosity[c] = mean_of_liquid(state, solid_distance, c, viscosity[c], value);
+      if (cut_cells.parts(c).size() == 0)
+        if (auto jump = find(); jump && measure_parts(state, c, *jump))
+          jumps.emplace(c, *jump);
     };
     const auto for_each_cell = [&](const auto &visit) {
       for (LocalIndex c = 0; c < viscosity.size(); ++c)
@@ -128,34 +159,39 @@ namespace treacle
     };
     if (state.material)
       {
+        const CarriedField     &field = state.material->viscosity;
+        const CarriedJumps<dim> find(mesh, field, liquid_volume);
         for_each_cell([&](const LocalIndex c) {
-          const CarriedInCell<dim> carried(*state.mesh, state.material->viscosity, c);
+          const CarriedInCell<dim> carried(mesh, field, c);
           if (carried.jumps())
-            soften(c, [&](const auto &lambda) { return carried.value(lambda); });
+            soften(c, [&](const auto &lambda) { return carried.value(lambda); }, [&] { return find(c, carried.values()); });
         });
-        return;
+        return jumps;
       }
     std::string         error;
     FormulaInCells<dim> formula(scene, state);
     for_each_cell([&](const LocalIndex c) {
       keep_error(error, [&] {
         if (formula.jumps(c))
-          soften(c, [&](const auto &lambda) { return formula.value(c, lambda); });
+          soften(c, [&](const auto &lambda) { return formula.value(c, lambda); }, [&] { return formula.jump(c); });
       });
     });
-    throw_first(state.mesh->communicator(), error);
+    throw_first(mesh.communicator(), error);
+    return jumps;
   }
 
-  template void
+  template std::map<LocalIndex, ViscosityJump<2>>
   soften_jumps(const Scene<2> &,
                const State<2> &,
                const std::vector<double> &,
+               const CutCells<2> &,
                const std::vector<double> &,
                std::vector<double> &);
-  template void
+  template std::map<LocalIndex, ViscosityJump<3>>
   soften_jumps(const Scene<3> &,
                const State<3> &,
                const std::vector<double> &,
+               const CutCells<3> &,
                const std::vector<double> &,
                std::vector<double> &);
 } // namespace treacle

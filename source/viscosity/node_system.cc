@@ -75,12 +75,14 @@ namespace treacle
     const unsigned int i        = std::find(nodes.begin(), nodes.end(), node) - nodes.begin();
     const double       strain   = stiffness.strain.empty() ? 0 : stiffness.strain[c];
     const double       gradient = stiffness.gradient.empty() ? 0 : stiffness.gradient[c];
-    const bool         has_skin = stiffness.skin.has(c);
+    const bool         has_skin = stiffness.skin.has(c), has_kink = stiffness.kinks.has(c);
     const auto         stiff    = [&](const Tensor<1, dim> &g, const Tensor<1, dim> &other) {
       auto block = (strain + gradient) * (g * other) * Tensor<2, dim>(unit_symmetric_tensor<dim>()) +
                    strain * outer_product(other, g);
       if (has_skin)
         block += 2 * strain * stiffness.skin.block(c, g, other);
+      if (has_kink)
+        block += stiffness.kinks.block(c, g, other);
       return block;
     };
     const auto parts = domain.cut_cells.parts(c);

@@ -34,6 +34,8 @@ namespace treacle
           result += stiffness.strain[cell] * (grad + transpose(grad));
           if (stiffness.skin.has(cell))
             result += 2 * stiffness.strain[cell] * stiffness.skin.stress(cell, grad);
+          if (stiffness.kinks.has(cell))
+            result += stiffness.kinks.stress(cell, grad);
         }
       if (!stiffness.gradient.empty())
         result += stiffness.gradient[cell] * grad;

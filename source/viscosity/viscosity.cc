@@ -141,6 +141,8 @@ namespace treacle
       if (domain.liquid_volume[c] > 0)
         weight[c] =
           step * domain.viscosity[c] * (whole ? domain.open_volume(c) : domain.liquid_volume[c]);
+    if (!result.strain.empty())
+      result.kinks = Kinks<dim>(domain, result.strain);
     return result;
   }
 

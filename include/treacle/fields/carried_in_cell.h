@@ -72,6 +72,13 @@ namespace treacle
       return two.exist();
     }
 
+    /// If it jumps.
+    const TwoValues &
+    values() const
+    {
+      return two;
+    }
+
     /// At barycentric coordinates.
     double
     value(const VertexValues<dim> &lambda) const

@@ -7,6 +7,7 @@
 #include <treacle/fields/cut_cells.h>
 #include <treacle/fields/mesh_data.h>
 #include <treacle/fields/state.h>
+#include <treacle/fields/viscosity_jump.h>
 #include <treacle/mesh/dual_part.h>
 
 #include <map>
@@ -59,6 +60,7 @@ namespace treacle
     /// Active, where neither pressure nor wall holds a node: of threads thinner than a cell.
     std::vector<unsigned char>  is_free_cell;
     std::vector<double>         viscosity;        ///< mean over the liquid part (Pa s)
+    std::map<LocalIndex, ViscosityJump<dim>> viscosity_jumps; ///< in cells that no solid cuts
     std::vector<double>         density;          ///< kg/m^dim
     CutCells<dim>               cut_cells;        ///< by solids, if their walls hold
 

@@ -8,6 +8,7 @@
 #include <treacle/fields/numbering.h>
 #include <treacle/solvers/linear_solver.h>
 #include <treacle/solvers/matrix_rows.h>
+#include <treacle/viscosity/kinks.h>
 #include <treacle/viscosity/skin.h>
 
 namespace treacle
@@ -50,6 +51,7 @@ namespace treacle
       std::vector<double> gradient; ///< of grad v : grad v'
       Springs             springs{};
       Skin<dim>           skin{}; ///< in the term with strain
+      Kinks<dim>          kinks{}; ///< besides the term with strain
 
       /// Of both terms.
       double
