@@ -13,7 +13,7 @@ from treacle.verification.results import CASES  # noqa: E402
 from treacle.verification.runs import run  # noqa: E402
 
 # name, level or None for the coarsest of scripts/verify
-COARSE = [("A6 exponential, cut", None), ("B2 cut wall", None), ("B5", None), ("C2 fall", None), ("C2 flight", None),
+COARSE = [("A6", None), ("A6 exponential, cut", None), ("B2 cut wall", None), ("B5", None), ("C2 fall", None), ("C2 flight", None),
           ("C2 rotation", None), ("C3 k pi, h 0.5, nu 1", None), ("C5", None), ("C9b", None),
           ("B4", 2), ("C2 fall 3D", 3), ("B9", None), ("B12", None), ("C15", None)]
 EXPECTED = Path(__file__).with_suffix(".output")
