@@ -31,6 +31,8 @@ namespace treacle
             stiffer += sign * viscosity;
             sum += sign * viscosity * (kink.sides[s].gradient * kink.normal);
           }
+        if (std::abs(of_interpolant * kink.normal) > (1 + 1e-9) * of_distance.norm())
+          continue; // so obtuse that |d| - I |d| falls towards the plane on one side
         kink.slope = -stiffer / sum;
         index[c]   = kinks.size();
         kinks.push_back(kink);
