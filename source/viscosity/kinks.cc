@@ -14,6 +14,8 @@ namespace treacle
       index.assign(mesh.cell_nodes.size(), invalid);
     for (const auto &[c, jump] : domain.viscosity_jumps)
       {
+        if (std::min(jump.viscosity[0], jump.viscosity[1]) == 0 || domain.viscosity[c] == 0)
+          continue; // what has no viscosity slides
         Tensor<1, dim> of_distance, of_interpolant; // gradients
         for (unsigned int i = 0; i <= dim; ++i)
           {
