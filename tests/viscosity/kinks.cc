@@ -2,7 +2,8 @@
 // Copyright (C) the Treacle authors
 
 // Layers of viscosity 1 and 50 that slide on one another, with an interface askew to the mesh, on leaves of two sizes: velocity has a kink there, which
-// cells that the interface cuts take up, and the power that viscosity takes in each is exact. A rigid motion takes none, and the matrix is symmetric.
+// cells that the interface cuts take up, and the power that viscosity takes in each is exact. A rigid motion takes none, and the matrix is symmetric. Where one side
+// has no viscosity there is none.
 
 #include "../tests.h"
 #include "../body.h"
@@ -119,6 +120,25 @@ namespace
              }))
           << std::endl;
   }
+
+  /// A viscous drop in a pool without viscosity, which have no shear stress in common.
+  void
+  check_thin(const MPI_Comm &comm)
+  {
+    const auto row = run_scene<2>(comm,
+                                  "set End time = 0.1\nset Frame interval = 0.1\n"
+                                  "subsection Mesh\nset Surface level = 4\nset Interior level = 3\nset Air level = 2\nend\n"
+                                  "subsection Gravity\nset Acceleration = 0; -9.81\nend\n"
+                                  "subsection Material\nset Viscosity = 0\nset Transport = advected\nend\n"
+                                  "subsection Liquid 1\nset Shape = half space\nset Centre = 0.5, 0.4\nset Normal = 0, 1\nend\n"
+                                  "subsection Liquid 2\nset Centre = 0.5, 0.4\nset Radius = 0.2\nset Viscosity = 100\nend\n",
+                                  0,
+                                  2)
+                       .back();
+    const double fastest = row.at("Maximum speed (m/s)");
+    out() << "2D, no viscosity on one side: " << row.at("Fallbacks") << " fallbacks, speed " << (fastest > 0 && fastest < 1 ? "below 1" : "WRONG")
+          << " m/s" << std::endl;
+  }
 } // namespace
 
 void
@@ -127,6 +147,7 @@ start(int, char **)
   on_1_2_3_ranks([](const MPI_Comm &comm) {
     check<2>(comm);
     check<3>(comm);
+    check_thin(comm);
   });
 }
 
