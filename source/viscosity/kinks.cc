@@ -23,8 +23,10 @@ namespace treacle
             of_interpolant += std::abs(jump.distance[i]) * mesh.cell_gradients[c][i];
           }
         Kink kink;
-        kink.weight    = weight[c];
-        kink.normal    = of_distance / of_distance.norm();
+        kink.weight = weight[c];
+        kink.normal = of_distance / of_distance.norm();
+        if (std::abs(of_interpolant * kink.normal) > (1 + 1e-9) * of_distance.norm())
+          continue; // so obtuse that |d| - I |d| falls towards the plane on one side
         double stiffer = 0, sum = 0; // of the second side, and of both by their kinks
         for (unsigned int s = 0; s < 2; ++s)
           {
@@ -33,8 +35,6 @@ namespace treacle
             stiffer += sign * viscosity;
             sum += sign * viscosity * (kink.sides[s].gradient * kink.normal);
           }
-        if (std::abs(of_interpolant * kink.normal) > (1 + 1e-9) * of_distance.norm())
-          continue; // so obtuse that |d| - I |d| falls towards the plane on one side
         kink.slope = -stiffer / sum;
         index[c]   = kinks.size();
         kinks.push_back(kink);
