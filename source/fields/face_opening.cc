@@ -37,16 +37,31 @@ namespace treacle
 
   template <int dim>
   double
+  FaceOpening<dim>::solid_fraction(const Vertices &v) const
+  {
+    VertexValues<dim - 1> in_solids;
+    for (unsigned int i = 0; i < dim; ++i)
+      in_solids[i] = std::max(v.solid[i], 0.5 * (v.solid[i] - v.emitter[i]));
+    return fraction_within<dim - 1>(in_solids);
+  }
+
+  template <int dim>
+  double
   FaceOpening<dim>::poured_fraction(const Vertices &v, const double held) const
   {
     if (emitter_distance.empty())
       return 0;
-    VertexValues<dim - 1> in_solids;
-    for (unsigned int i = 0; i < dim; ++i)
-      in_solids[i] = std::max(v.solid[i], 0.5 * (v.solid[i] - v.emitter[i]));
     constexpr double rounding = 1e-12;
-    const double     poured   = held - fraction_within<dim - 1>(in_solids);
+    const double     poured   = held - solid_fraction(v);
     return poured > rounding ? poured : 0;
+  }
+
+  template <int dim>
+  double
+  FaceOpening<dim>::poured_in_solids(const LocalIndex f) const
+  {
+    const Vertices v = vertices(f);
+    return fraction_within<dim - 1>(v.solid) - solid_fraction(v);
   }
 
   template <int dim>

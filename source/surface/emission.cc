@@ -6,6 +6,7 @@
 #include <treacle/mesh/tracer.h>
 #include <treacle/surface/emission.h>
 #include <treacle/surface/emitted_volume.h>
+#include <treacle/surface/emitter_divergence.h>
 
 namespace treacle
 {
@@ -124,8 +125,8 @@ namespace treacle
     std::vector<Parcel<dim>> inflow;
     const auto fill_with = [&](const double time, const double earlier, const double way) {
       const EmitterFilling<dim> filling(scene, h, time, earlier, way, room.air > near_full * room.layer);
-      const auto                part = fill_emitters(state, data, filling);
-      inflow.insert(inflow.end(), part.begin(), part.end());
+      for (const auto &part : {fill_emitters(state, data, filling), made_in_emitters(data, time, way)})
+        inflow.insert(inflow.end(), part.begin(), part.end());
       if (state.material)
         set_material(state, scene, time);
       settle_markers(state, scene, filling, h, time, way);

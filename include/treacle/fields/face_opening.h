@@ -32,6 +32,10 @@ namespace treacle
     std::pair<double, double>
     operator()(const LocalIndex face) const;
 
+    /// The part of a face in solids where emitters are deeper, and carry it as well.
+    double
+    poured_in_solids(const LocalIndex face) const;
+
   private:
     /// Distances from the vertices of a face.
     struct Vertices
@@ -43,7 +47,11 @@ namespace treacle
     Vertices
     vertices(const LocalIndex face) const;
 
-    /// What emitters carry of the @p held part: the rest is in solids, and less deep in emitters.
+    /// What solids alone carry: what is deeper in them than in emitters.
+    double
+    solid_fraction(const Vertices &v) const;
+
+    /// What emitters carry of the @p held part: the rest.
     double
     poured_fraction(const Vertices &v, const double held) const;
 

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) the Treacle authors
+
+#include <treacle/base/exchange.h>
+#include <treacle/fields/face_opening.h>
+#include <treacle/geometry/cut_simplex.h>
+#include <treacle/surface/emitter_divergence.h>
+
+namespace treacle
+{
+  namespace
+  {
+    template <int dim>
+    class EmitterDivergence
+    {
+    public:
+      EmitterDivergence(const MeshData<dim> &data, const double time)
+        : mesh(data.mesh)
+        , scene(data.scene)
+        , time(time)
+        , to_solids(data.solid_distance(time))
+        , to_emitters(to_solids.size())
+        , opening(mesh, scene, to_solids, to_emitters, time)
+      {
+        for (LocalIndex node = 0; node < to_emitters.size(); ++node)
+          to_emitters[node] = scene.emitter_distance(mesh.node_position[node], time);
+      }
+
+      /// m^dim/s.
+      double
+      in_cell(const LocalIndex c) const
+      {
+        const auto &nodes = mesh.cell_nodes[c];
+        const auto  any   = [&](const auto &is) { return std::any_of(nodes.begin(), nodes.end(), is); };
+        if (!any([this](const LocalIndex node) { return to_emitters[node] <= 0 && to_solids[node] > 0; }))
+          return 0;
+        const bool is_closed = !any([this](const LocalIndex node) { return to_emitters[node] > 0 && to_solids[node] > 0; }),
+                   is_cut    = any([this](const LocalIndex node) { return to_solids[node] <= 0; });
+        Flow flow;
+        for (const LocalIndex f : mesh.cell_faces[c])
+          add(flow, f, c);
+        double made = is_closed && std::abs(flow.outflow) > rounding * flow.size ? flow.outflow : 0;
+        if (is_cut)
+          {
+            const Point<dim>     x = on_wall(c);
+            const Tensor<1, dim> v = scene.emitter_velocity(x, time), pushed = v - scene.solid_velocity(x, time);
+            if (is_closed)
+              made += flow.wall * v - std::max(0., flow.wall * pushed);
+            else if (flow.wall * pushed > glancing * flow.wall.norm() * pushed.norm())
+              made -= std::max(0., flow.in_solids);
+          }
+        return made - flow.through_sides;
+      }
+
+    private:
+      static constexpr double rounding = 1e-12, glancing = 0.1;
+
+      /// What the emitter's velocity carries out of a cell (m^dim/s).
+      struct Flow
+      {
+        double         outflow = 0, size = 0; ///< through faces outside solids, and what goes in and out
+        double         in_solids     = 0; ///< through parts of faces there that are poured nevertheless
+        double         through_sides = 0; ///< of the box, no inflow
+        Tensor<1, dim> wall;              ///< of solids: its area vector
+      };
+
+      /// Through a face of a cell.
+      void
+      add(Flow &flow, const LocalIndex f, const LocalIndex c) const
+      {
+        std::array<Point<dim>, dim> x;
+        VertexValues<dim - 1>       in_solids, to_emitter;
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            const LocalIndex node = mesh.face_nodes[f][i];
+            x[i]                  = mesh.node_position[node];
+            in_solids[i]          = -to_solids[node];
+            to_emitter[i]         = to_emitters[node];
+          }
+        const Tensor<1, dim> area   = (mesh.face_cells[f][0] == c ? 1 : -1) * mesh.face_area[f] * mesh.face_normal[f];
+        const double         open   = negative_fraction<dim - 1>(in_solids),
+                             across = area * scene.emitter_velocity(negative_centroid<dim>(x, in_solids), time);
+        flow.wall -= open * area;
+        flow.outflow += open * across;
+        flow.size += std::abs(across);
+        flow.in_solids += opening.poured_in_solids(f) * across;
+        if (mesh.face_side[f] != Mesh<dim>::no_side)
+          flow.through_sides += std::max(0., across) * open * negative_fraction<dim - 1>(to_emitter);
+      }
+
+      /// Amid the wall of solids in a cell.
+      Point<dim>
+      on_wall(const LocalIndex c) const
+      {
+        const Simplex<dim>      x        = mesh.cell_vertices(c);
+        const VertexValues<dim> distance = mesh.values(c, to_solids);
+        Tensor<1, dim>          sum;
+        unsigned int            n = 0;
+        for (unsigned int i = 0; i <= dim; ++i)
+          for (unsigned int j = 0; j <= dim; ++j)
+            if (distance[i] <= 0 && distance[j] > 0)
+              {
+                sum += (distance[j] * x[i] - distance[i] * x[j]) / (distance[j] - distance[i]);
+                ++n;
+              }
+        return Point<dim>(sum / n);
+      }
+
+      const Mesh<dim>            &mesh;
+      const Scene<dim>           &scene;
+      const double                time;
+      const std::vector<double>   to_solids;   ///< of nodes (m)
+      std::vector<double>         to_emitters; ///< of nodes (m)
+      const FaceOpening<dim>      opening;
+    };
+  } // namespace
+
+  template <int dim>
+  std::vector<Parcel<dim>>
+  made_in_emitters(const MeshData<dim> &data, const double time, const double dt)
+  {
+    const EmitterDivergence<dim> made(data, time);
+    std::vector<Parcel<dim>>     parcels;
+    std::string                  error;
+    keep_error(error, [&] {
+      for (LocalIndex c = 0; c < data.mesh.n_owned_cells(); ++c)
+        if (const double rate = made.in_cell(c); rate != 0)
+          parcels.push_back({barycentre<dim>(data.mesh.cell_vertices(c)), dt * rate});
+    });
+    throw_first(data.mesh.communicator(), error);
+    return parcels;
+  }
+
+  template std::vector<Parcel<2>>
+  made_in_emitters(const MeshData<2> &, const double, const double);
+  template std::vector<Parcel<3>>
+  made_in_emitters(const MeshData<3> &, const double, const double);
+} // namespace treacle
