@@ -8,7 +8,6 @@ namespace treacle
   template <int dim>
   Kinks<dim>::Kinks(const LiquidDomain<dim> &domain, const std::vector<double> &weight)
   {
-    constexpr double most = 100;
     const Mesh<dim> &mesh = domain.mesh;
     if (!domain.viscosity_jumps.empty())
       index.assign(mesh.cell_nodes.size(), invalid);
@@ -16,6 +15,8 @@ namespace treacle
       {
         if (std::min(jump.viscosity[0], jump.viscosity[1]) == 0 || domain.viscosity[c] == 0)
           continue; // what has no viscosity slides
+        if (domain.dual_distance[c] >= 0)
+          continue; // a skin's, which takes off from the energy with one viscosity
         Tensor<1, dim> of_distance, of_interpolant; // gradients
         for (unsigned int i = 0; i <= dim; ++i)
           {
@@ -30,7 +31,7 @@ namespace treacle
         double stiffer = 0, sum = 0; // of the second side, and of both by their kinks
         for (unsigned int s = 0; s < 2; ++s)
           {
-            const double sign = s == 0 ? -1 : 1, viscosity = std::min(jump.viscosity[s], most * jump.viscosity[1 - s]);
+            const double sign = s == 0 ? -1 : 1, viscosity = jump.counted(s);
             kink.sides[s] = {weight[c] / domain.viscosity[c] * viscosity * jump.part[s], sign * of_distance - of_interpolant};
             stiffer += sign * viscosity;
             sum += sign * viscosity * (kink.sides[s].gradient * kink.normal);

@@ -3,12 +3,14 @@
 
 // Layers of viscosity 1 and 50 that slide on one another, with an interface askew to the mesh, on leaves of two sizes: velocity has a kink there, which
 // cells that the interface cuts take up, and the power that viscosity takes in each is exact. A rigid motion takes none, and the matrix is symmetric. Where one side
-// has no viscosity there is none.
+// has no viscosity there is none. Where a free surface crosses the layers no motion wins power.
 
 #include "../tests.h"
 #include "../body.h"
 
 #include <treacle/fields/gradients.h>
+
+#include <deal.II/lac/lapack_full_matrix.h>
 
 namespace tests::viscosity_kinks
 {
@@ -121,6 +123,61 @@ namespace
           << std::endl;
   }
 
+  /// The least eigenvalue of a cell's power over rates of strain.
+  template <int dim>
+  double
+  least_power(const typename NodeSystem<dim>::Stiffness &stiffness, const LocalIndex c)
+  {
+    using Strain             = SymmetricTensor<2, dim>;
+    constexpr unsigned int n = Strain::n_independent_components;
+    LAPACKFullMatrix<double> power(n, n);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        {
+          Strain e, f;
+          e[Strain::unrolled_to_component_indices(i)] = 1;
+          f[Strain::unrolled_to_component_indices(j)] = 1;
+          Tensor<2, dim> sigma = 2 * stiffness.strain[c] * Tensor<2, dim>(e);
+          if (stiffness.skin.has(c))
+            sigma += 2 * stiffness.strain[c] * stiffness.skin.stress(c, e);
+          if (stiffness.kinks.has(c))
+            sigma += stiffness.kinks.stress(c, e);
+          power(i, j) = scalar_product(sigma, Tensor<2, dim>(f)) / stiffness.strain[c];
+        }
+    dealii::Vector<double> eigenvalues;
+    FullMatrix<double>     eigenvectors;
+    power.compute_eigenvalues_symmetric(-1e30, 1e30, 0, eigenvalues, eigenvectors);
+    return *std::min_element(eigenvalues.begin(), eigenvalues.end());
+  }
+
+  /// A free surface across the layers, where the liquid is so stiff that cells have a skin.
+  template <int dim>
+  void
+  check_surface(const MPI_Comm &comm)
+  {
+    const Layers<dim> layers;
+    const Body<dim>   body(comm,
+                         "subsection Mesh\nset Surface level = 4\nset Interior level = 3\nset Air level = 2\nend\n"
+                         "subsection Material\nset Viscosity = 1e4*" + layers.viscosity() +
+                           "\nend\nsubsection Liquid 1\nset Shape = half space\nset Centre = 0.4, 0.4" + (dim == 2 ? "" : ", 0.4") +
+                           "\nset Normal = 1, 0" + (dim == 2 ? "" : ", 0") + "\nend\n");
+    auto stiffness = Viscosity<dim>(body.prm.dynamics.viscosity).stiffness(body.domain, 1);
+    stiffness.skin = Skin<dim>(body.domain, body.state.phi, 1);
+    double least   = std::numeric_limits<double>::max();
+    bool   has_any = false;
+    for (const auto &jump : body.domain.viscosity_jumps)
+      {
+        least   = std::min(least, least_power<dim>(stiffness, jump.first));
+        has_any = has_any || stiffness.skin.has(jump.first);
+      }
+    least   = Utilities::MPI::min(least, comm);
+    has_any = Utilities::MPI::logical_or(has_any, comm);
+    if (Utilities::MPI::this_mpi_process(comm) == 0) // for a person
+      std::cout << dim << "D, a free surface: least power " << least << std::endl;
+    out() << dim << "D, a free surface across the layers: " << (has_any ? "cells with a skin" : "NO SKIN") << ", power "
+          << (least > 0.02 ? "is taken" : "IS WON, OR ALL BUT") << std::endl;
+  }
+
   /// A viscous drop in a pool without viscosity, which have no shear stress in common.
   void
   check_thin(const MPI_Comm &comm)
@@ -147,6 +204,8 @@ start(int, char **)
   on_1_2_3_ranks([](const MPI_Comm &comm) {
     check<2>(comm);
     check<3>(comm);
+    check_surface<2>(comm);
+    check_surface<3>(comm);
     check_thin(comm);
   });
 }

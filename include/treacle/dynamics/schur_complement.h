@@ -30,6 +30,10 @@ namespace treacle
     inverse_diagonal() const;
 
   private:
+    /// Viscosity of a pressure cell (Pa s), which does not shear it: where it jumps the mean, for which kinks of the velocity do not make up.
+    double
+    felt_by_pressure(const LocalIndex cell) const;
+
     std::unique_ptr<const TrilinosWrappers::SparseMatrix>
     viscous_part(const Hybrid<dim> &hybrid) const;
 

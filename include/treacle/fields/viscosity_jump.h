@@ -17,6 +17,22 @@ namespace treacle
     VertexValues<dim>     distance;  ///< of the cell's vertices from the plane (m), negative on the first side
     std::array<double, 2> viscosity; ///< of the sides (Pa s)
     std::array<double, 2> part{};    ///< of the cell's liquid on them
+
+    /// What a side counts as (Pa s): the stiffer one at most as a hundred times the other, which it would hold where the plane is askew by a few
+    /// degrees.
+    double
+    counted(const unsigned int side) const
+    {
+      constexpr double most = 100;
+      return std::min(viscosity[side], most * viscosity[1 - side]);
+    }
+
+    /// What liquid that is pressed together along the normal, and not sheared, feels (Pa s).
+    double
+    mean() const
+    {
+      return part[0] * counted(0) + part[1] * counted(1);
+    }
   };
 
   /// Where @p viscosity, a formula that has the values @p at_vertices of a cell, jumps between these, if it does: it must do most of its change at a

@@ -23,8 +23,7 @@ namespace treacle
     /// None.
     Kinks() = default;
 
-    /// With the weight of 2 e : e in the cells, of which each has one viscosity. The stiffer side counts at most a hundred times as stiff as the other: where
-    /// the normal is askew by a few degrees it would hold the other.
+    /// With the weight of 2 e : e in the cells, of which each has one viscosity. None in cells without pressure, where there may be a skin.
     Kinks(const LiquidDomain<dim> &domain, const std::vector<double> &weight);
 
     /// Is a cell one of these?
