@@ -16,7 +16,7 @@ namespace treacle
                       velocity,
                       std::string("Of the liquid inside (m/s); a formula in ") +
                         (dim == 2 ? "x,y,t" : "x,y,z,t") +
-                        " per component, separated by semicolons.");
+                        " per component, separated by semicolons. Where it converges, or goes out through a wall, liquid is taken away.");
     prm.add_parameter("Start time", start_time, "When it begins to emit (s).");
     prm.add_parameter("Stop time", stop_time, "When it ends (s).");
     material.add_parameters(prm, "; as in Material if empty (Transport = advected).");
