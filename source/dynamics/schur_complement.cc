@@ -57,7 +57,7 @@ namespace treacle
 
   template <int dim>
   double
-  SchurComplement<dim>::felt_by_pressure(const LocalIndex cell) const
+  SchurComplement<dim>::viscosity_felt(const LocalIndex cell) const
   {
     const auto jump = domain.viscosity_jumps.find(cell);
     return jump == domain.viscosity_jumps.end() ? domain.viscosity[cell] : std::max(domain.viscosity[cell], jump->second.mean());
@@ -80,7 +80,7 @@ namespace treacle
         // little goes out of a cell that solids or emitters all but close
         const double volume = std::min(domain.open_volume(c), open / all * mesh.cell_volume[c]);
         const double mu_dt =
-          std::max(felt_by_pressure(c) * step,
+          std::max(viscosity_felt(c) * step,
                    least_viscosity * domain.density[c] * std::pow(mesh.cell_size[c], 2));
         mass.push_back(volume / (2 * mu_dt));
       }

@@ -125,7 +125,7 @@ namespace treacle
     std::vector<Parcel<dim>> inflow;
     const auto fill_with = [&](const double time, const double earlier, const double way) {
       const EmitterFilling<dim> filling(scene, h, time, earlier, way, room.air > near_full * room.layer);
-      for (const auto &part : {fill_emitters(state, data, filling), made_in_emitters(data, time, way)})
+      for (const auto &part : {fill_emitters(state, data, filling), made_in_emitters(data, state.time, time, way)})
         inflow.insert(inflow.end(), part.begin(), part.end());
       if (state.material)
         set_material(state, scene, time);

@@ -14,11 +14,13 @@ namespace treacle
     class EmitterDivergence
     {
     public:
-      EmitterDivergence(const MeshData<dim> &data, const double time)
+      /// With solids where they are at the end of a step, emitters at a @p time in it.
+      EmitterDivergence(const MeshData<dim> &data, const double end, const double time)
         : mesh(data.mesh)
         , scene(data.scene)
+        , end(end)
         , time(time)
-        , to_solids(data.solid_distance(time))
+        , to_solids(data.solid_distance(end))
         , to_emitters(to_solids.size())
         , opening(mesh, scene, to_solids, to_emitters, time)
       {
@@ -30,21 +32,20 @@ namespace treacle
       double
       in_cell(const LocalIndex c) const
       {
-        const auto &nodes = mesh.cell_nodes[c];
-        const auto  any   = [&](const auto &is) { return std::any_of(nodes.begin(), nodes.end(), is); };
+        const auto any = [&](const auto &is) { return std::any_of(mesh.cell_nodes[c].begin(), mesh.cell_nodes[c].end(), is); };
         if (!any([this](const LocalIndex node) { return to_emitters[node] <= 0 && to_solids[node] > 0; }))
           return 0;
-        const bool is_closed = !any([this](const LocalIndex node) { return to_emitters[node] > 0 && to_solids[node] > 0; }),
-                   is_cut    = any([this](const LocalIndex node) { return to_solids[node] <= 0; });
+        const bool is_open = any([this](const LocalIndex node) { return to_emitters[node] > 0 && to_solids[node] > 0; }),
+                   is_cut  = any([this](const LocalIndex node) { return to_solids[node] <= 0; });
         Flow flow;
         for (const LocalIndex f : mesh.cell_faces[c])
           add(flow, f, c);
-        double made = is_closed && std::abs(flow.outflow) > rounding * flow.size ? flow.outflow : 0;
+        double made = is_open || std::abs(flow.outflow) < rounding * flow.size ? 0 : flow.outflow;
         if (is_cut)
           {
             const Point<dim>     x = on_wall(c);
-            const Tensor<1, dim> v = scene.emitter_velocity(x, time), pushed = v - scene.solid_velocity(x, time);
-            if (is_closed)
+            const Tensor<1, dim> v = scene.emitter_velocity(x, time), pushed = v - scene.solid_velocity(x, end);
+            if (!is_open)
               made += flow.wall * v - std::max(0., flow.wall * pushed);
             else if (flow.wall * pushed > glancing * flow.wall.norm() * pushed.norm())
               made -= std::max(0., flow.in_solids);
@@ -69,23 +70,23 @@ namespace treacle
       add(Flow &flow, const LocalIndex f, const LocalIndex c) const
       {
         std::array<Point<dim>, dim> x;
-        VertexValues<dim - 1>       in_solids, to_emitter;
+        VertexValues<dim - 1>       in_solids, filled;
         for (unsigned int i = 0; i < dim; ++i)
           {
             const LocalIndex node = mesh.face_nodes[f][i];
             x[i]                  = mesh.node_position[node];
             in_solids[i]          = -to_solids[node];
-            to_emitter[i]         = to_emitters[node];
+            filled[i]             = std::max(to_emitters[node], in_solids[i]);
           }
-        const Tensor<1, dim> area   = (mesh.face_cells[f][0] == c ? 1 : -1) * mesh.face_area[f] * mesh.face_normal[f];
-        const double         open   = negative_fraction<dim - 1>(in_solids),
+        const Tensor<1, dim> area = (mesh.face_cells[f][0] == c ? 1 : -1) * mesh.face_area[f] * mesh.face_normal[f];
+        const double         open = negative_fraction<dim - 1>(in_solids),
                              across = area * scene.emitter_velocity(negative_centroid<dim>(x, in_solids), time);
         flow.wall -= open * area;
         flow.outflow += open * across;
         flow.size += std::abs(across);
         flow.in_solids += opening.poured_in_solids(f) * across;
         if (mesh.face_side[f] != Mesh<dim>::no_side)
-          flow.through_sides += std::max(0., across) * open * negative_fraction<dim - 1>(to_emitter);
+          flow.through_sides += std::max(0., across) * negative_fraction<dim - 1>(filled);
       }
 
       /// Amid the wall of solids in a cell.
@@ -106,20 +107,20 @@ namespace treacle
         return Point<dim>(sum / n);
       }
 
-      const Mesh<dim>            &mesh;
-      const Scene<dim>           &scene;
-      const double                time;
-      const std::vector<double>   to_solids;   ///< of nodes (m)
-      std::vector<double>         to_emitters; ///< of nodes (m)
-      const FaceOpening<dim>      opening;
+      const Mesh<dim>          &mesh;
+      const Scene<dim>         &scene;
+      const double              end, time;
+      const std::vector<double> to_solids;   ///< of nodes (m)
+      std::vector<double>       to_emitters; ///< of nodes (m)
+      const FaceOpening<dim>    opening;
     };
   } // namespace
 
   template <int dim>
   std::vector<Parcel<dim>>
-  made_in_emitters(const MeshData<dim> &data, const double time, const double dt)
+  made_in_emitters(const MeshData<dim> &data, const double end, const double time, const double dt)
   {
-    const EmitterDivergence<dim> made(data, time);
+    const EmitterDivergence<dim> made(data, end, time);
     std::vector<Parcel<dim>>     parcels;
     std::string                  error;
     keep_error(error, [&] {
@@ -132,7 +133,7 @@ namespace treacle
   }
 
   template std::vector<Parcel<2>>
-  made_in_emitters(const MeshData<2> &, const double, const double);
+  made_in_emitters(const MeshData<2> &, const double, const double, const double);
   template std::vector<Parcel<3>>
-  made_in_emitters(const MeshData<3> &, const double, const double);
+  made_in_emitters(const MeshData<3> &, const double, const double, const double);
 } // namespace treacle

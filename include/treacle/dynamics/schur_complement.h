@@ -30,9 +30,9 @@ namespace treacle
     inverse_diagonal() const;
 
   private:
-    /// Viscosity of a pressure cell (Pa s), which does not shear it: where it jumps the mean, for which kinks of the velocity do not make up.
+    /// Of a cell (Pa s): pressure does not shear it, so that where viscosity jumps kinks of the velocity do not make it softer than the mean.
     double
-    felt_by_pressure(const LocalIndex cell) const;
+    viscosity_felt(const LocalIndex cell) const;
 
     std::unique_ptr<const TrilinosWrappers::SparseMatrix>
     viscous_part(const Hybrid<dim> &hybrid) const;
