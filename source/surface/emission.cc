@@ -37,10 +37,17 @@ namespace treacle
       material.update_ghost_values();
     }
 
+    template <int dim>
+    struct Filled
+    {
+      std::vector<Parcel<dim>> inflow;
+      std::vector<double>      to_emitters; ///< distances of nodes (m)
+    };
+
     /// Cuts the liquid in emitters and beside them out of state.phi, and puts the emitters
     /// in. Returns what flowed in. Collective.
     template <int dim>
-    std::vector<Parcel<dim>>
+    Filled<dim>
     fill_emitters(State<dim> &state, const MeshData<dim> &data, const EmitterFilling<dim> &filling)
     {
       const Mesh<dim>           &mesh = *state.mesh;
@@ -48,26 +55,27 @@ namespace treacle
       std::string                error;
       EmittedVolume<dim>         emitted(filling);
       Vector                     filled(mesh.nodes);
+      Filled<dim>                result{{}, std::vector<double>(mesh.node_position.size())};
       for (LocalIndex node = 0; node < mesh.node_position.size(); ++node)
         keep_error(error, [&] {
           const auto &vertex =
             emitted.add(mesh.node_position[node], state.phi.local_element(node), psi[node], state.v.value(node));
+          result.to_emitters[node] = vertex.phi.to_emitters;
           if (node < mesh.n_owned_nodes())
             filled.local_element(node) = vertex.phi.after;
         });
       throw_first(mesh.communicator(), error);
-      std::vector<Parcel<dim>> inflow;
       for (LocalIndex c = 0; c < mesh.n_owned_cells(); ++c)
         if (const auto &nodes = mesh.cell_nodes[c];
             std::any_of(nodes.begin(), nodes.end(), [&](const LocalIndex node) {
               return emitted[node].phi.inside != emitted[node].phi.kept;
             }))
-          keep_error(error, [&] { inflow.push_back({barycentre<dim>(mesh.cell_vertices(c)), emitted(nodes)}); });
+          keep_error(error, [&] { result.inflow.push_back({barycentre<dim>(mesh.cell_vertices(c)), emitted(nodes)}); });
       throw_first(mesh.communicator(), error);
       filled.update_ghost_values();
       state.phi = filled;
       state.phi.update_ghost_values();
-      return inflow;
+      return result;
     }
 
     /// Emitters that have poured for a time @p dt until @p time take the markers inside away, for the liquid that these bounded has come
@@ -125,7 +133,8 @@ namespace treacle
     std::vector<Parcel<dim>> inflow;
     const auto fill_with = [&](const double time, const double earlier, const double way) {
       const EmitterFilling<dim> filling(scene, h, time, earlier, way, room.air > near_full * room.layer);
-      for (const auto &part : {fill_emitters(state, data, filling), made_in_emitters(data, state.time, time, way)})
+      const auto [filled, to_emitters] = fill_emitters(state, data, filling);
+      for (const auto &part : {filled, made_in_emitters(data, to_emitters, state.time, time, way)})
         inflow.insert(inflow.end(), part.begin(), part.end());
       if (state.material)
         set_material(state, scene, time);

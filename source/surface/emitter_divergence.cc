@@ -14,19 +14,16 @@ namespace treacle
     class EmitterDivergence
     {
     public:
-      /// With solids where they are at the end of a step, emitters at a @p time in it.
-      EmitterDivergence(const MeshData<dim> &data, const double end, const double time)
+      /// With solids where they are at the end of a step, emitters at a @p time in it. Refers to all.
+      EmitterDivergence(const MeshData<dim> &data, const std::vector<double> &to_emitters, const double end, const double time)
         : mesh(data.mesh)
         , scene(data.scene)
         , end(end)
         , time(time)
         , to_solids(data.solid_distance(end))
-        , to_emitters(to_solids.size())
+        , to_emitters(to_emitters)
         , opening(mesh, scene, to_solids, to_emitters, time)
-      {
-        for (LocalIndex node = 0; node < to_emitters.size(); ++node)
-          to_emitters[node] = scene.emitter_distance(mesh.node_position[node], time);
-      }
+      {}
 
       /// m^dim/s.
       double
@@ -107,20 +104,23 @@ namespace treacle
         return Point<dim>(sum / n);
       }
 
-      const Mesh<dim>          &mesh;
-      const Scene<dim>         &scene;
-      const double              end, time;
-      const std::vector<double> to_solids;   ///< of nodes (m)
-      std::vector<double>       to_emitters; ///< of nodes (m)
-      const FaceOpening<dim>    opening;
+      const Mesh<dim>           &mesh;
+      const Scene<dim>          &scene;
+      const double               end, time;
+      const std::vector<double> &to_solids, &to_emitters; ///< of nodes (m)
+      const FaceOpening<dim>     opening;
     };
   } // namespace
 
   template <int dim>
   std::vector<Parcel<dim>>
-  made_in_emitters(const MeshData<dim> &data, const double end, const double time, const double dt)
+  made_in_emitters(const MeshData<dim>       &data,
+                   const std::vector<double> &to_emitters,
+                   const double               end,
+                   const double               time,
+                   const double               dt)
   {
-    const EmitterDivergence<dim> made(data, end, time);
+    const EmitterDivergence<dim> made(data, to_emitters, end, time);
     std::vector<Parcel<dim>>     parcels;
     std::string                  error;
     keep_error(error, [&] {
@@ -133,7 +133,7 @@ namespace treacle
   }
 
   template std::vector<Parcel<2>>
-  made_in_emitters(const MeshData<2> &, const double, const double, const double);
+  made_in_emitters(const MeshData<2> &, const std::vector<double> &, const double, const double, const double);
   template std::vector<Parcel<3>>
-  made_in_emitters(const MeshData<3> &, const double, const double, const double);
+  made_in_emitters(const MeshData<3> &, const std::vector<double> &, const double, const double, const double);
 } // namespace treacle

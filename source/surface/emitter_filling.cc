@@ -169,7 +169,7 @@ namespace treacle
   {
     const auto [emitter, to_emitter] = scene.nearest_emitter(x, time);
     if (is_far(to_emitter, v)) // what flowed in is no other than what was there
-      return {std::min(old, to_emitter), to_emitter, to_emitter};
+      return {std::min(old, to_emitter), to_emitter, to_emitter, to_emitter};
     const Tensor<1, dim> way   = dt * emitter->velocity(x, time);
     const Point<dim>     from  = x - way;
     const double         depth = depth_beyond(from, scene, h, time), here = to_filled(x, to_emitter),
@@ -182,7 +182,7 @@ namespace treacle
     const double     remains  = old > -h ? std::max(old, through_wall(x, way, depth)) : old;
     // where walls bound both, neither has more
     const double inside = here > 0 && before < 0 ? before : std::max(distance, depth_beyond(x, scene, h, time));
-    return {std::min(remains, distance), inside, std::max(inside, before)};
+    return {std::min(remains, distance), inside, std::max(inside, before), to_emitter};
   }
 
 #define INSTANTIATE(dim)                                                                                 \

@@ -51,12 +51,17 @@ namespace
     }
   };
 
-  /// Of a cell with a jump: the stress, times its volume, of the velocity of nodes.
+  /// Of a cell: the stress, times its volume, of the velocity of nodes.
   template <int dim>
   Tensor<2, dim>
   stress(const typename NodeSystem<dim>::Stiffness &stiffness, const LocalIndex c, const Tensor<2, dim> &gradient)
   {
-    return stiffness.strain[c] * (gradient + transpose(gradient)) + stiffness.kinks.stress(c, gradient);
+    Tensor<2, dim> sigma = stiffness.strain[c] * (gradient + transpose(gradient));
+    if (stiffness.skin.has(c))
+      sigma += 2 * stiffness.strain[c] * stiffness.skin.stress(c, gradient);
+    if (stiffness.kinks.has(c))
+      sigma += stiffness.kinks.stress(c, gradient);
+    return sigma;
   }
 
   /// The largest of what @p value (cell) is in cells with a jump.
@@ -137,12 +142,7 @@ namespace
           Strain e, f;
           e[Strain::unrolled_to_component_indices(i)] = 1;
           f[Strain::unrolled_to_component_indices(j)] = 1;
-          Tensor<2, dim> sigma = 2 * stiffness.strain[c] * Tensor<2, dim>(e);
-          if (stiffness.skin.has(c))
-            sigma += 2 * stiffness.strain[c] * stiffness.skin.stress(c, e);
-          if (stiffness.kinks.has(c))
-            sigma += stiffness.kinks.stress(c, e);
-          power(i, j) = scalar_product(sigma, Tensor<2, dim>(f)) / stiffness.strain[c];
+          power(i, j) = scalar_product(stress<dim>(stiffness, c, e), Tensor<2, dim>(f)) / stiffness.strain[c];
         }
     dealii::Vector<double> eigenvalues;
     FullMatrix<double>     eigenvectors;

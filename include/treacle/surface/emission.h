@@ -13,7 +13,7 @@ namespace treacle
 {
   /// Fills the emitters that were at work in the step of size @p dt that ends at
   /// state.time, and those that start there: level set, markers and carried material. The skin of a stream along the wall it comes from
-  /// is removed. Returns what flowed in, by the cells of this rank,
+  /// is removed. Returns what flowed in, less what flowed out in drains, by the cells of this rank,
   /// which is less than the emitter's volume rate where the liquid around
   /// it takes part in the motion, and, unless solids may make some, no more than there is room for. Collective.
   template <int dim>

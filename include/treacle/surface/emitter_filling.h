@@ -27,6 +27,7 @@ namespace treacle
       double after;
       double inside; ///< of what emitters have filled, up to walls
       double kept;   ///< inside, what came from there or was there already
+      double to_emitters; ///< distance to these alone (m)
     };
 
     /// Where the liquid has the velocity @p v (m/s). Paths that lead back through a wall bring none: what sticks to the ceiling beside an
