@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/fields/carried_in_cell.h>
 #include <treacle/fields/dual_density.h>
 #include <treacle/fields/gradients.h>
 
@@ -23,27 +24,53 @@ namespace treacle
                     mean<dim>({part.at(0.5), half}, f, at_middle, at_end, n_halvings - 1));
     }
 
-    /// Of what is carried, which is P1 in the cells on both sides.
+    /// How much of a way along which the mean at the nodes goes from one value to another is of the upper one of the two between which the property
+    /// jumps: all goes over while the mean does the middle third of its way.
+    double
+    part_of_upper(const TwoValues &two, const double from, const double to)
+    {
+      const double middle = 0.5 * (two.least() + two.largest()), half = (two.largest() - two.least()) / 6;
+      const auto   integral = [&](const double mean) {
+        const double x = mean - middle;
+        return x <= -half ? 0. : x >= half ? x : (x + half) * (x + half) / (4 * half);
+      };
+      if (std::abs(to - from) > 1e-6 * half)
+        return (integral(to) - integral(from)) / (to - from);
+      return std::min(std::max((0.5 * (from + to) - middle + half) / (2 * half), 0.), 1.);
+    }
+
+    /// Of what is carried, which is P1 in the cells on both sides, and where it jumps goes over within a third of a leaf or so: that is less than the mean
+    /// at the nodes needs, and enough for these to know the place to a part of a leaf.
     template <int dim>
     double
-    carried_mean(const Mesh<dim> &mesh, const Vector &at_nodes, const LocalIndex face, const DualPart<dim> &part)
+    carried_mean(const Mesh<dim> &mesh, const CarriedField &field, const LocalIndex face, const DualPart<dim> &part)
     {
       const Tensor<1, dim> &normal  = mesh.face_normal[face];
       const double          to_face = (mesh.face_centre(face) - part.begin) * normal / (part.way * normal);
       const double          here    = std::min(std::max(to_face, 0.), 1.);
       double                least = std::numeric_limits<double>::max(), most = 0, sum = 0;
-      const auto            add = [&](const LocalIndex cell, const double share, const double middle) {
-        const VertexValues<dim> values = mesh.values(cell, at_nodes);
-        const auto [lower, upper]      = std::minmax_element(values.begin(), values.end());
-        least                          = std::min(least, *lower);
-        most                           = std::max(most, *upper);
-        sum += share * interpolate(values, weights_at(mesh, cell, part.at(middle)));
+      const auto            add = [&](const LocalIndex cell, const double begin, const double end) {
+        const VertexValues<dim>  values = mesh.values(cell, field.mean);
+        const CarriedInCell<dim> carried(mesh, field, cell);
+        const auto               at = [&](const double t) { return interpolate(values, weights_at(mesh, cell, part.at(t))); };
+        if (carried.jumps())
+          {
+            const TwoValues &two = carried.values();
+            least                = std::min(least, two.least());
+            most                 = std::max(most, two.largest());
+            sum += (end - begin) * (two.least() + part_of_upper(two, at(begin), at(end)) * (two.largest() - two.least()));
+            return;
+          }
+        const auto [lower, upper] = std::minmax_element(values.begin(), values.end());
+        least                     = std::min(least, *lower);
+        most                      = std::max(most, *upper);
+        sum += (end - begin) * at((begin + end) / 2);
       };
       auto [begin, end] = mesh.face_cells[face];
       if (part.way * normal < 0)
         std::swap(begin, end);
-      add(begin, here, here / 2);
-      add(end, 1 - here, (1 + here) / 2);
+      add(begin, 0, here);
+      add(end, here, 1);
       return std::min(std::max(sum, least), most); // dual centres may lie outside of their cells
     }
   } // namespace
@@ -53,7 +80,7 @@ namespace treacle
   mean_density(const Scene<dim> &scene, const State<dim> &state, const LocalIndex face, const DualPart<dim> &part)
   {
     if (state.material)
-      return carried_mean(*state.mesh, state.material->density.mean, face, part);
+      return carried_mean(*state.mesh, state.material->density, face, part);
     const auto density = [&](const Point<dim> &x) { return scene.density(x, state.time); };
     return mean(part, density, density(part.begin), density(part.at(1)));
   }

@@ -3,38 +3,82 @@
 
 #include <treacle/base/exchange.h>
 #include <treacle/fields/layers.h>
+#include <treacle/fields/liquid_volume.h>
 #include <treacle/surface/carried_material.h>
+#include <treacle/surface/initial_jumps.h>
 #include <treacle/surface/material_points.h>
 
 namespace treacle
 {
+  namespace
+  {
+    /// What liquid is made of at t = 0. Errors of formulas are kept.
+    template <int dim>
+    struct InitialMaterial
+    {
+      const Scene<dim> &scene;
+      std::string       error = {};
+
+      /// Density and viscosity.
+      std::array<double, 2>
+      operator()(const Point<dim> &x)
+      {
+        std::array<double, 2> result{{1, 0}};
+        keep_error(error, [&] {
+          const Material<dim> &material = scene.initial_material(x);
+          result                        = {{material.density(x, 0.), material.viscosity(x, 0.)}};
+        });
+        return result;
+      }
+
+      /// At the nodes of cells that hold liquid, in the air too; NaN elsewhere.
+      std::array<std::vector<double>, 2>
+      at_nodes(const State<dim> &state)
+      {
+        const Mesh<dim>                   &mesh = *state.mesh;
+        std::array<std::vector<double>, 2> result;
+        for (auto &values : result)
+          values.resize(mesh.node_position.size(), std::numeric_limits<double>::quiet_NaN());
+        for (LocalIndex c = 0; c < mesh.cell_nodes.size(); ++c)
+          if (has_liquid(mesh, state.phi, c))
+            for (const LocalIndex node : mesh.cell_nodes[c])
+              if (std::isnan(result[0][node]))
+                {
+                  const auto [density, viscosity] = (*this)(mesh.node_position[node]);
+                  result[0][node]                 = density;
+                  result[1][node]                 = viscosity;
+                }
+        return result;
+      }
+    };
+  } // namespace
+
   template <int dim>
   void
   set_initial_material(State<dim> &state, const MeshData<dim> &data)
   {
-    const Mesh<dim>  &mesh  = data.mesh;
-    const Scene<dim> &scene = data.scene;
+    const Mesh<dim>     &mesh = data.mesh;
+    InitialMaterial<dim> initial{data.scene};
+    const auto           at_nodes = initial.at_nodes(state);
     state.material.emplace(mesh.nodes);
-    std::string error;
-    const auto  point = [&](const Point<dim> &x) {
-      MaterialPoint<dim> result{x, 1, 0};
-      keep_error(error, [&] {
-        const Material<dim> &material = scene.initial_material(x);
-        result                        = {x, material.density(x, 0.), material.viscosity(x, 0.)};
-      });
-      return result;
-    };
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      if (state.phi.local_element(node) < 0)
+      if (!std::isnan(at_nodes[0][node]))
         {
-          const auto [x, density, viscosity]                  = point(mesh.node_position[node]);
-          state.material->density.mean.local_element(node)   = density;
-          state.material->viscosity.mean.local_element(node) = viscosity;
+          state.material->density.mean.local_element(node)   = at_nodes[0][node];
+          state.material->viscosity.mean.local_element(node) = at_nodes[1][node];
         }
-    throw_first(mesh.communicator(), error);
-    MaterialPoints<dim>(state, data).reseed(
-      [&](const Point<dim> &x, LocalIndex, const VertexValues<dim> &) { return point(x); });
-    throw_first(mesh.communicator(), error);
+    throw_first(mesh.communicator(), initial.error);
+    MaterialPoints<dim> points(state, data);
+    for (unsigned int k = 0; k < 2; ++k)
+      set_means_about_jumps<dim>(
+        data, state.phi, *points.properties()[k], at_nodes[k], [&](const Point<dim> &x) { return initial(x)[k]; });
+    state.material->update_ghost_values();
+    points.reseed([&](const Point<dim> &x, const LocalIndex cell, const VertexValues<dim> &lambda) {
+      MaterialPoint<dim> point                 = points.point(x, cell, lambda);
+      std::tie(point.density, point.viscosity) = std::tuple_cat(initial(x));
+      return point;
+    });
+    throw_first(mesh.communicator(), initial.error);
   }
 
   template <int dim>

@@ -32,7 +32,10 @@ namespace treacle
             material.density.mean.local_element(node),
             material.viscosity.mean.local_element(node));
       for (MaterialPoint<dim> &point : material.points)
-        set(point.position, point.density, point.viscosity);
+        {
+          set(point.position, point.density, point.viscosity);
+          set(point.position, point.mean_density, point.mean_viscosity);
+        }
       throw_first(mesh.communicator(), error);
       material.update_ghost_values();
     }

@@ -4,6 +4,7 @@
 #include <treacle/fields/moved_points.h>
 #include <treacle/mesh/surface_size.h>
 #include <treacle/surface/material_points.h>
+#include <treacle/surface/point_means.h>
 #include <treacle/surface/sowing.h>
 
 namespace treacle
@@ -15,20 +16,6 @@ namespace treacle
     constexpr unsigned int points_per_cell = dim == 2 ? 6 : 4;
     /// Rings of cells about a jump that have points.
     constexpr unsigned int n_rings = 2;
-
-    double
-    log_of(const double value)
-    {
-      return std::log(std::max(value, 1e-300));
-    }
-
-    /// Of the mean of logarithms and of their squares. The variance of two values is the product; that of
-    /// values that are spread evenly between them is a third of it.
-    bool
-    has_two_values(const double least, const double largest, const double mean, const double squares)
-    {
-      return squares - mean * mean > 0.6 * (mean - log_of(least)) * (log_of(largest) - mean);
-    }
   } // namespace
 
   template <int dim>
@@ -38,18 +25,23 @@ namespace treacle
     , mesh(data.mesh)
     , material(*state.material)
     , solid_distance(data.solid_distance(state.time))
-    , density{material.density, &MaterialPoint<dim>::density}
-    , viscosity{material.viscosity, &MaterialPoint<dim>::viscosity}
-    , weight(mesh.nodes)
+    , density{material.density, &MaterialPoint<dim>::density, &MaterialPoint<dim>::mean_density}
+    , viscosity{material.viscosity, &MaterialPoint<dim>::viscosity, &MaterialPoint<dim>::mean_viscosity}
     , known(mesh.nodes)
     , count(mesh.cells)
   {
     locate();
-    for (Property *property : {&density, &viscosity})
+    const PointMeans<dim> means(data, material.points, place);
+    // liquid may have come where nothing brought its material
+    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+      known.local_element(node) =
+        means.weight(node) > 0 ||
+        (state.phi.local_element(node) < 0 && material.density.mean.local_element(node) > 0);
+    known.update_ghost_values();
+    for (MaterialProperty<dim> *property : {&density, &viscosity})
       {
         property->spread = spread_of(*property);
-        give_to_nodes(*property);
-        smooth(*property);
+        means.give(*property, known);
       }
   }
 
@@ -73,24 +65,15 @@ namespace treacle
         kept.push_back(point);
         place.push_back(found);
         count.local_element(found.cell) += 1;
-        for (unsigned int i = 0; i <= dim; ++i)
-          weight.local_element(mesh.cell_nodes[found.cell][i]) += found.lambda[i];
       }
     material.points = std::move(kept);
     count.compress(VectorOperation::add);
     count.update_ghost_values();
-    weight.compress(VectorOperation::add);
-    // liquid may have come where nothing brought its material
-    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      known.local_element(node) =
-        weight.local_element(node) > 0 ||
-        (state.phi.local_element(node) < 0 && material.density.mean.local_element(node) > 0);
-    known.update_ghost_values();
   }
 
   template <int dim>
   double
-  MaterialPoints<dim>::spread_of(const Property &property) const
+  MaterialPoints<dim>::spread_of(const MaterialProperty<dim> &property) const
   {
     double     least = std::numeric_limits<double>::max(), largest = -least;
     const auto take = [&](const double value) {
@@ -104,77 +87,6 @@ namespace treacle
       take(point.*property.of_point);
     const MPI_Comm comm = mesh.communicator();
     return Utilities::MPI::max(largest, comm) - Utilities::MPI::min(least, comm);
-  }
-
-  template <int dim>
-  void
-  MaterialPoints<dim>::give_to_nodes(const Property &property)
-  {
-    CarriedField &field = property.field;
-    Vector        sum(mesh.nodes), logarithms(mesh.nodes), squares(mesh.nodes);
-    fill(field.least, std::numeric_limits<double>::max());
-    fill(field.largest, -std::numeric_limits<double>::max());
-    for (unsigned int k = 0; k < place.size(); ++k)
-      {
-        const VertexValues<dim> &w     = place[k].lambda;
-        const double             value = material.points[k].*property.of_point, logarithm = log_of(value);
-        for (unsigned int i = 0; i <= dim; ++i)
-          {
-            const LocalIndex node = mesh.cell_nodes[place[k].cell][i];
-            double &least = field.least.local_element(node), &largest = field.largest.local_element(node);
-            sum.local_element(node) += w[i] * value;
-            logarithms.local_element(node) += w[i] * logarithm;
-            squares.local_element(node) += w[i] * logarithm * logarithm;
-            least   = std::min(least, value);
-            largest = std::max(largest, value);
-          }
-      }
-    for (Vector *v : {&sum, &logarithms, &squares})
-      v->compress(VectorOperation::add);
-    field.least.compress(VectorOperation::min);
-    field.largest.compress(VectorOperation::max);
-    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      {
-        double &mean = field.mean.local_element(node);
-        double &least = field.least.local_element(node), &largest = field.largest.local_element(node);
-        const auto   part = [&](const Vector &v) { return v.local_element(node) / weight.local_element(node); };
-        if (weight.local_element(node) > 0 && property.jumps(least, largest) &&
-            has_two_values(least, largest, part(logarithms), part(squares)))
-          {
-            mean = std::min(std::max(part(sum), least), largest);
-            continue;
-          }
-        // points on one side of a node do not see all that is about
-        if (weight.local_element(node) > 0)
-          mean = std::min(std::max({mean, 1.5 * least - 0.5 * largest, 0.5 * least}), 1.5 * largest - 0.5 * least);
-        least = largest = mean;
-      }
-    field.update_ghost_values();
-  }
-
-  template <int dim>
-  void
-  MaterialPoints<dim>::smooth(const Property &property)
-  {
-    const CarriedField before = property.field;
-    before.update_ghost_values();
-    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      {
-        TwoValues two;
-        for (const auto &neighbour : data.neighbours(node))
-          two.add(before.least.local_element(neighbour.node), before.largest.local_element(neighbour.node));
-        if (!two.exist())
-          continue;
-        property.field.least.local_element(node)   = two.least();
-        property.field.largest.local_element(node) = two.largest();
-        mean_of_neighbours(
-          data,
-          node,
-          [&](const LocalIndex other) { return is_known(other); },
-          [&](const LocalIndex other) { return before.mean.local_element(other); },
-          property.field.mean.local_element(node));
-      }
-    property.field.update_ghost_values();
   }
 
   template <int dim>
@@ -208,7 +120,7 @@ namespace treacle
   bool
   MaterialPoints<dim>::has_jump(const LocalIndex c) const
   {
-    for (const Property *property : {&density, &viscosity})
+    for (const MaterialProperty<dim> *property : {&density, &viscosity})
       {
         double least = std::numeric_limits<double>::max(), largest = -least;
         for (const LocalIndex node : mesh.cell_nodes[c])

@@ -154,7 +154,7 @@ check_errors(const MPI_Comm &comm)
   refuse<2>(comm, tests::ball_mesh<2>());
   fs::resize_file("out2/checkpoint/leaves", 36);
   refuse<2>(comm, tests::ball_mesh<2>());
-  replace_in_info("Format = 8", "Format = 7");
+  replace_in_info("Format = 9", "Format = 8");
   refuse<2>(comm, tests::ball_mesh<2>());
   checkpoint<2>(comm).remove();
   refuse<2>(comm, tests::ball_mesh<2>());

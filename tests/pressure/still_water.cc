@@ -5,7 +5,7 @@
 // tilted as the surface is: it stays at rest to rounding where no theta is
 // clamped (case C1 of the verification); without viscosity, its surface on the sides of leaves, where dual centres are,
 // to what the clamped ones make. A full box in a force that has a potential, also on leaves of three sizes. Liquid that is heavier below, by little
-// and little or all at once (where it is carried along in a full box: nodes in the air have what is carried beside them). Argument: number of steps, level.
+// and little or all at once (where it is carried along in a full box, for nodes in the air have what is carried beside them, and all at once on leaves of one size). Argument: number of steps, level.
 
 #include "../tests.h"
 #include "../run_scene.h"
@@ -87,14 +87,19 @@ full(const MPI_Comm &comm)
 
 template <int dim>
 void
-layered(const MPI_Comm &comm, const std::string &name, const std::string &density, const std::string &transport, const double height)
+layered(const MPI_Comm    &comm,
+        const std::string &name,
+        const std::string &density,
+        const std::string &transport,
+        const double       height,
+        const std::string &size = "if(x < 0.3, 0.06, 1)")
 {
   const std::string up   = dim == 2 ? "y" : "z";
   const auto        rows = run_scene<dim>(comm,
                                    "set End time = 0.2\nset Frame interval = 0.2\nset Maximum time step = 0.1\n"
                                    "subsection Domain\nset Wall condition = free slip\nend\n"
                                    "subsection Mesh\nset Surface level = 4\nset Interior level = 2\n"
-                                   "set Size = if(x < 0.3, 0.06, 1)\nset Air level = 2\nset Band width = 1\nend\n"
+                                   "set Size = " + size + "\nset Air level = 2\nset Band width = 1\nend\n"
                                    "subsection Material\nset Density = " + density + "\nset Viscosity = 0\nset Transport = " + transport +
                                      "\nend\nsubsection Liquid 1\nset Shape = expression\nset Expression = " + up + " - " + std::to_string(height) + "\nend\n" +
                                      tolerance("1e-13"));
@@ -110,6 +115,7 @@ layered(const MPI_Comm &comm)
   layered<dim>(comm, "layers of a formula", "if(" + up + " < 0.47, 1.5, 1)", "fixed", 0.81);
   layered<dim>(comm, "density that falls", "1.5 - 0.5*" + up, "fixed", 0.81);
   layered<dim>(comm, "density that falls, carried along", "1.5 - 0.5*" + up, "advected", 2);
+  layered<dim>(comm, "layers carried along", "if(" + up + " < 0.47, 1.5, 1)", "advected", 2, "0.06");
 }
 
 void

@@ -4,9 +4,9 @@
 #ifndef treacle_surface_material_points_h
 #define treacle_surface_material_points_h
 
-#include <treacle/fields/carried_in_cell.h>
 #include <treacle/fields/mesh_data.h>
 #include <treacle/mesh/locator.h>
+#include <treacle/surface/material_property.h>
 
 namespace treacle
 {
@@ -16,8 +16,7 @@ namespace treacle
   class MaterialPoints
   {
   public:
-    /// Points that left the liquid are dropped; nodes about jumps take the mean of those about them, the
-    /// others what they have, within bounds that the points set.
+    /// Points that left the liquid are dropped; the others tell the nodes (PointMeans).
     MaterialPoints(State<dim> &state, const MeshData<dim> &data);
 
     /// 1 at nodes that know their material, from the liquid they are in or from points; else 0.
@@ -25,6 +24,13 @@ namespace treacle
     nodes_that_know() const
     {
       return known;
+    }
+
+    /// Density and viscosity.
+    std::array<const MaterialProperty<dim> *, 2>
+    properties() const
+    {
+      return {{&density, &viscosity}};
     }
 
     /// Gives a new point at a position, in a cell and at barycentric coordinates there.
@@ -42,27 +48,12 @@ namespace treacle
     {
       return {x,
               CarriedInCell<dim>(mesh, density.field, cell).value(lambda),
-              CarriedInCell<dim>(mesh, viscosity.field, cell).value(lambda)};
+              CarriedInCell<dim>(mesh, viscosity.field, cell).value(lambda),
+              interpolate(mesh.values(cell, density.field.mean), lambda),
+              interpolate(mesh.values(cell, viscosity.field.mean), lambda)};
     }
 
   private:
-    /// One of the properties that make a material.
-    struct Property
-    {
-      CarriedField &field;
-      double MaterialPoint<dim>::*of_point;
-      /// Largest less smallest value anywhere.
-      double spread = 0;
-
-      /// Not by roundoff: leaves of a quarter of the box with something linear are no jump on any rank.
-      bool
-      jumps(const double least, const double largest) const
-      {
-        constexpr double more = 1 + 1e-9;
-        return largest > more * least_jump * least || largest - least > std::max(0.25 * more * spread, 1e-9 * largest);
-      }
-    };
-
     bool
     is_known(const LocalIndex node) const
     {
@@ -73,16 +64,7 @@ namespace treacle
     locate();
 
     double
-    spread_of(const Property &property) const;
-
-    /// Where the points about a node have two values.
-    void
-    give_to_nodes(const Property &property);
-
-    /// About jumps a mean over neighbours as well: where the middle is must not depend on how the points
-    /// happen to lie, for cells of either kind strewn among those of the other are hard to solve for.
-    void
-    smooth(const Property &property);
+    spread_of(const MaterialProperty<dim> &property) const;
 
     /// 1 for these, also ghosts.
     Vector
@@ -104,9 +86,8 @@ namespace treacle
     const Mesh<dim>           &mesh;
     CarriedMaterial<dim>      &material;
     const std::vector<double> &solid_distance;
-    Property                   density, viscosity;
+    MaterialProperty<dim>      density, viscosity;
     std::vector<Location<dim>> place;  ///< of the points
-    Vector                     weight; ///< of the points around each node
     Vector                     known;
     Vector                     count;  ///< of points in each cell
   };
