@@ -190,7 +190,7 @@ namespace
     out() << "2D: overturns, cells " << fine.back().at("Cells") << ", fine at jumps " << jumps.front().at("Cells")
           << " to " << jumps.back().at("Cells") << " in " << jumps.back().at("Rebuilds") << " meshes and "
           << jumps.size() - 1 << " steps, kinetic energy "
-          << (error(jumps) < 0.05 ? "within 5 %" : "OFF") << ", without " << (error(coarse) < 0.3 ? "TOO" : "not")
+          << (error(jumps) < 0.05 ? "within 5 %" : "OFF") << ", without " << (error(coarse) < 0.05 ? "TOO" : "not")
           << std::endl;
   }
 
