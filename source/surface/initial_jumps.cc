@@ -143,14 +143,14 @@ namespace treacle
       std::vector<Vector> numbers;
     };
 
-    /// The largest leaf about a node.
+    /// The smallest leaf about a node: all nodes of a cell with a plane are to have the same where there are larger ones behind them.
     template <int dim>
     double
     leaf_about(const Mesh<dim> &mesh, const LocalIndex node)
     {
-      double size = 0;
+      double size = std::numeric_limits<double>::max();
       for (unsigned int k = mesh.node_cell_start[node]; k < mesh.node_cell_start[node + 1]; ++k)
-        size = std::max(size, mesh.cell_size[mesh.node_cells[k]]);
+        size = std::min(size, mesh.cell_size[mesh.node_cells[k]]);
       return size;
     }
   } // namespace

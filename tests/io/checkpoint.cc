@@ -187,7 +187,7 @@ check_all_parts(const MPI_Comm &comm, const bool at_nodes)
     for (const auto &part : parts_of(*state.material))
       part.get().equ(++factor, state.phi);
     for (const auto &marker : state.markers)
-      state.material->points.push_back({marker.position, marker.normal[0], marker.normal[1]});
+      state.material->points.push_back({marker.position, marker.normal[0], marker.normal[1], marker.position[0], -marker.normal[1]});
     state.material->update_ghost_values();
     state.before.emplace();
     state.before->dt = 0.1;
