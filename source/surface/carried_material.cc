@@ -69,13 +69,26 @@ namespace treacle
         }
     throw_first(mesh.communicator(), initial.error);
     MaterialPoints<dim> points(state, data);
+    std::array<Vector, 2> know_planes;
     for (unsigned int k = 0; k < 2; ++k)
-      set_means_about_jumps<dim>(
-        data, state.phi, *points.properties()[k], at_nodes[k], [&](const Point<dim> &x) { return initial(x)[k]; });
+      {
+        know_planes[k] = set_means_about_jumps<dim>(
+          data, state.phi, *points.properties()[k], at_nodes[k], [&](const Point<dim> &x) { return initial(x)[k]; });
+        know_planes[k].update_ghost_values();
+      }
     state.material->update_ghost_values();
     points.reseed([&](const Point<dim> &x, const LocalIndex cell, const VertexValues<dim> &lambda) {
-      MaterialPoint<dim> point                 = points.point(x, cell, lambda);
-      std::tie(point.density, point.viscosity) = std::tuple_cat(initial(x));
+      MaterialPoint<dim> point   = points.point(x, cell, lambda);
+      const auto         made_of = initial(x);
+      for (unsigned int k = 0; k < 2; ++k)
+        {
+          const MaterialProperty<dim> &property = *points.properties()[k];
+          point.*property.of_point              = made_of[k];
+          // where there is no plane the points alone tell of the jump
+          const VertexValues<dim> known = mesh.values(cell, know_planes[k]);
+          if (*std::min_element(known.begin(), known.end()) == 0)
+            point.*property.mean_of_point = made_of[k];
+        }
       return point;
     });
     throw_first(mesh.communicator(), initial.error);

@@ -128,6 +128,13 @@ namespace treacle
         return known.local_element(node) > 0;
       }
 
+      /// 1 at these, else 0; ghosts are not up to date.
+      const Vector &
+      known_nodes() const
+      {
+        return known;
+      }
+
       JumpPlane<dim>
       at(const LocalIndex node) const
       {
@@ -143,6 +150,31 @@ namespace treacle
       std::vector<Vector> numbers;
     };
 
+    /// Where a property jumps in a cell at whose vertices it has these values, if it does.
+    template <int dim>
+    std::optional<JumpPlane<dim>>
+    plane_in_cell(const Mesh<dim>                                 &mesh,
+                  const LocalIndex                                 c,
+                  const MaterialProperty<dim>                     &property,
+                  VertexValues<dim>                                values,
+                  const std::function<double(const Point<dim> &)> &formula)
+    {
+      const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+      if (!property.jumps(*least, *largest))
+        return {};
+      // ratios tell sides apart, and there may be no viscosity on one
+      const double shift = *least > 0 ? 0 : 1e-3 * *largest;
+      for (double &value : values)
+        value += shift;
+      const Simplex<dim> x    = mesh.cell_vertices(c);
+      auto               jump = find_jump<dim>(x, values, [&](const Point<dim> &at) { return formula(at) + shift; });
+      if (!jump)
+        return {};
+      for (double &value : jump->viscosity)
+        value -= shift;
+      return JumpPlane<dim>(x, mesh.cell_gradients[c], *jump);
+    }
+
     /// The smallest leaf about a node: all nodes of a cell with a plane are to have the same where there are larger ones behind them.
     template <int dim>
     double
@@ -156,7 +188,7 @@ namespace treacle
   } // namespace
 
   template <int dim>
-  void
+  Vector
   set_means_about_jumps(const MeshData<dim>                             &data,
                         const Vector                                    &phi,
                         const MaterialProperty<dim>                     &property,
@@ -167,16 +199,10 @@ namespace treacle
     NearestPlanes<dim> planes(mesh);
     for (LocalIndex c = 0; c < mesh.cell_nodes.size(); ++c)
       if (has_liquid(mesh, phi, c))
-        {
-          const VertexValues<dim> values = mesh.values(c, at_nodes);
-          const Simplex<dim>      x      = mesh.cell_vertices(c);
-          const auto [least, largest]    = std::minmax_element(values.begin(), values.end());
-          if (property.jumps(*least, *largest))
-            if (const auto jump = find_jump<dim>(x, values, formula))
-              for (const LocalIndex node : mesh.cell_nodes[c])
-                if (node < mesh.n_owned_nodes())
-                  planes.offer(node, JumpPlane<dim>(x, mesh.cell_gradients[c], *jump));
-        }
+        if (const auto plane = plane_in_cell(mesh, c, property, mesh.values(c, at_nodes), formula))
+          for (const LocalIndex node : mesh.cell_nodes[c])
+            if (node < mesh.n_owned_nodes())
+              planes.offer(node, *plane);
     for (unsigned int layer = 0; layer < n_layers_of_planes; ++layer)
       planes.spread(data);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
@@ -187,15 +213,16 @@ namespace treacle
           const double distance = std::min(std::max(plane.distance(mesh.node_position[node]), -leaf), leaf);
           property.field.mean.local_element(node) = plane.mean(distance / leaf);
         }
+    return planes.known_nodes();
   }
 
-  template void
+  template Vector
   set_means_about_jumps(const MeshData<2> &,
                         const Vector &,
                         const MaterialProperty<2> &,
                         const std::vector<double> &,
                         const std::function<double(const Point<2> &)> &);
-  template void
+  template Vector
   set_means_about_jumps(const MeshData<3> &,
                         const Vector &,
                         const MaterialProperty<3> &,

@@ -13,9 +13,9 @@ namespace treacle
 {
   /// Where a property jumps that is given by a formula, on planes in the cells that hold liquid: the mean at the nodes goes from one value to the other
   /// as their distance from the plane does, from a leaf before it to a leaf behind it, so that its middle lies on the plane. @p at_nodes has the formula's
-  /// values at the nodes of these cells. Elsewhere the mean is left alone. Collective.
+  /// values at the nodes of these cells. Elsewhere the mean is left alone. Returns 1 at the owned nodes about such jumps, else 0. Collective.
   template <int dim>
-  void
+  Vector
   set_means_about_jumps(const MeshData<dim>                             &data,
                         const Vector                                    &phi,
                         const MaterialProperty<dim>                     &property,
