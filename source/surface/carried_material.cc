@@ -3,7 +3,6 @@
 
 #include <treacle/base/exchange.h>
 #include <treacle/fields/layers.h>
-#include <treacle/fields/liquid_volume.h>
 #include <treacle/surface/carried_material.h>
 #include <treacle/surface/initial_jumps.h>
 #include <treacle/surface/material_points.h>
@@ -31,7 +30,7 @@ namespace treacle
         return result;
       }
 
-      /// At the nodes of cells that hold liquid, in the air too; NaN elsewhere.
+      /// At the nodes in the liquid, also ghosts; elsewhere NaN: what would be there is not asked.
       std::array<std::vector<double>, 2>
       at_nodes(const State<dim> &state)
       {
@@ -39,18 +38,36 @@ namespace treacle
         std::array<std::vector<double>, 2> result;
         for (auto &values : result)
           values.resize(mesh.node_position.size(), std::numeric_limits<double>::quiet_NaN());
-        for (LocalIndex c = 0; c < mesh.cell_nodes.size(); ++c)
-          if (has_liquid(mesh, state.phi, c))
-            for (const LocalIndex node : mesh.cell_nodes[c])
-              if (std::isnan(result[0][node]))
-                {
-                  const auto [density, viscosity] = (*this)(mesh.node_position[node]);
-                  result[0][node]                 = density;
-                  result[1][node]                 = viscosity;
-                }
+        for (LocalIndex node = 0; node < mesh.node_position.size(); ++node)
+          if (state.phi.local_element(node) < 0)
+            {
+              const auto [density, viscosity] = (*this)(mesh.node_position[node]);
+              result[0][node]                 = density;
+              result[1][node]                 = viscosity;
+            }
         return result;
       }
     };
+
+    /// Into the air: in each of @p n_layers of cells nodes take the mean of those around them that have a value already. Collective.
+    template <int dim>
+    void
+    continue_material(State<dim> &state, const MeshData<dim> &data, Vector known, const unsigned int n_layers)
+    {
+      CarriedField &density = state.material->density, &viscosity = state.material->viscosity;
+      continue_outwards(
+        data,
+        known,
+        n_layers,
+        [&](const LocalIndex node) {
+          return Tensor<1, 2>({density.mean.local_element(node), viscosity.mean.local_element(node)});
+        },
+        [&](const LocalIndex node, const Tensor<1, 2> &value) {
+          density.set(node, value[0]);
+          viscosity.set(node, value[1]);
+        },
+        [&] { state.material->update_ghost_values(); });
+    }
   } // namespace
 
   template <int dim>
@@ -69,11 +86,12 @@ namespace treacle
         }
     throw_first(mesh.communicator(), initial.error);
     MaterialPoints<dim> points(state, data);
+    continue_material(state, data, points.nodes_that_know(), 1); // cells at the surface have nodes in the air
     std::array<Vector, 2> know_planes;
     for (unsigned int k = 0; k < 2; ++k)
       {
         know_planes[k] = set_means_about_jumps<dim>(
-          data, state.phi, *points.properties()[k], at_nodes[k], [&](const Point<dim> &x) { return initial(x)[k]; });
+          data, *points.properties()[k], at_nodes[k], [&](const Point<dim> &x) { return initial(x)[k]; });
         know_planes[k].update_ghost_values();
       }
     state.material->update_ghost_values();
@@ -99,20 +117,7 @@ namespace treacle
   settle_material(State<dim> &state, const MeshData<dim> &data, const unsigned int n_layers)
   {
     MaterialPoints<dim> points(state, data);
-    Vector              known = points.nodes_that_know();
-    CarriedField       &density = state.material->density, &viscosity = state.material->viscosity;
-    continue_outwards(
-      data,
-      known,
-      n_layers,
-      [&](const LocalIndex node) {
-        return Tensor<1, 2>({density.mean.local_element(node), viscosity.mean.local_element(node)});
-      },
-      [&](const LocalIndex node, const Tensor<1, 2> &value) {
-        density.set(node, value[0]);
-        viscosity.set(node, value[1]);
-      },
-      [&] { state.material->update_ghost_values(); });
+    continue_material(state, data, points.nodes_that_know(), n_layers);
     // cells at the surface have nodes in the air
     points.reseed([&](const auto &...where) { return points.point(where...); });
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
-#include <treacle/fields/liquid_volume.h>
 #include <treacle/fields/viscosity_jump.h>
 #include <treacle/surface/initial_jumps.h>
 
@@ -150,7 +149,7 @@ namespace treacle
       std::vector<Vector> numbers;
     };
 
-    /// Where a property jumps in a cell at whose vertices it has these values, if it does.
+    /// Where a property jumps in a cell at whose vertices it has these values, if it does: none may be NaN.
     template <int dim>
     std::optional<JumpPlane<dim>>
     plane_in_cell(const Mesh<dim>                                 &mesh,
@@ -159,6 +158,8 @@ namespace treacle
                   VertexValues<dim>                                values,
                   const std::function<double(const Point<dim> &)> &formula)
     {
+      if (std::any_of(values.begin(), values.end(), [](const double value) { return std::isnan(value); }))
+        return {};
       const auto [least, largest] = std::minmax_element(values.begin(), values.end());
       if (!property.jumps(*least, *largest))
         return {};
@@ -190,7 +191,6 @@ namespace treacle
   template <int dim>
   Vector
   set_means_about_jumps(const MeshData<dim>                             &data,
-                        const Vector                                    &phi,
                         const MaterialProperty<dim>                     &property,
                         const std::vector<double>                       &at_nodes,
                         const std::function<double(const Point<dim> &)> &formula)
@@ -198,11 +198,10 @@ namespace treacle
     const Mesh<dim>   &mesh = data.mesh;
     NearestPlanes<dim> planes(mesh);
     for (LocalIndex c = 0; c < mesh.cell_nodes.size(); ++c)
-      if (has_liquid(mesh, phi, c))
-        if (const auto plane = plane_in_cell(mesh, c, property, mesh.values(c, at_nodes), formula))
-          for (const LocalIndex node : mesh.cell_nodes[c])
-            if (node < mesh.n_owned_nodes())
-              planes.offer(node, *plane);
+      if (const auto plane = plane_in_cell(mesh, c, property, mesh.values(c, at_nodes), formula))
+        for (const LocalIndex node : mesh.cell_nodes[c])
+          if (node < mesh.n_owned_nodes())
+            planes.offer(node, *plane);
     for (unsigned int layer = 0; layer < n_layers_of_planes; ++layer)
       planes.spread(data);
     for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
@@ -218,13 +217,11 @@ namespace treacle
 
   template Vector
   set_means_about_jumps(const MeshData<2> &,
-                        const Vector &,
                         const MaterialProperty<2> &,
                         const std::vector<double> &,
                         const std::function<double(const Point<2> &)> &);
   template Vector
   set_means_about_jumps(const MeshData<3> &,
-                        const Vector &,
                         const MaterialProperty<3> &,
                         const std::vector<double> &,
                         const std::function<double(const Point<3> &)> &);

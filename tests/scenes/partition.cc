@@ -3,7 +3,7 @@
 
 // A thin ring and an emitter, both askew, do on several ranks what they do on one, but for rounding: markers of edges that
 // reach out of a rank's cells, and those that an emitter draws over to another rank. So does a pool in a drum about a solid that
-// swings: where the air's velocity comes from, and what a blow has ended, is not for roundoff to tell.
+// swings: where the air's velocity comes from, and what a blow has ended, is not for roundoff to tell. And liquids of different density and viscosity that meet.
 
 #include "../run_scene.h"
 #include "../tests.h"
@@ -80,6 +80,27 @@ namespace
     out() << "2D: drum " << verdict(most) << std::endl;
   }
 
+  /// A heavy stiff ball sinks in a pool, into which light liquid is poured.
+  template <int dim>
+  void
+  check_liquids(const MPI_Comm &comm)
+  {
+    const std::string z    = dim == 2 ? ", " : ", 0.5, ", up = dim == 2 ? "0, 1" : "0, 0, 1", down = dim == 2 ? "0; -1" : "0; 0; -1";
+    const double      most = difference<dim>(comm,
+                                        std::string("set End time = 0.3\nset Frame interval = 0.1\nsubsection Mesh\nset Surface level = ") +
+                                          (dim == 2 ? "5" : "3\nset Interior level = 2\nset Air level = 2") + "\nend\n" +
+                                          "subsection Material\nset Density = 1000\nset Viscosity = 5\nset Transport = advected\nend\n" +
+                                          "subsection Liquid 1\nset Shape = half space\nset Centre = 0.5" + z + "0.356\nset Normal = " + up +
+                                          "\nend\nsubsection Liquid 2\nset Radius = 0.13\nset Centre = 0.464" + z +
+                                          "0.55\nset Density = 2500\nset Viscosity = 100\nend\n" +
+                                          "subsection Emitter 1\nset Radius = 0.1\nset Centre = 0.712" + z + "0.8\nset Velocity = " + down +
+                                          "\nset Density = 500\nset Viscosity = 1\nend\n",
+                                        0,
+                                        2,
+                                        1);
+    out() << dim << "D: three liquids " << verdict(most) << std::endl;
+  }
+
   template <int dim>
   void
   check(const MPI_Comm &comm)
@@ -107,6 +128,8 @@ namespace
       check<2>(comm);
       check<3>(comm);
       check_drum(comm);
+      check_liquids<2>(comm);
+      check_liquids<3>(comm);
     });
   }
 

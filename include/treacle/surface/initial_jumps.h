@@ -11,13 +11,12 @@
 
 namespace treacle
 {
-  /// Where a property jumps that is given by a formula, on planes in the cells that hold liquid: the mean at the nodes goes from one value to the other
+  /// Where a property jumps that is given by a formula, on planes in cells that are full of liquid: the mean at the nodes goes from one value to the other
   /// as their distance from the plane does, from a leaf before it to a leaf behind it, so that its middle lies on the plane. @p at_nodes has the formula's
-  /// values at the nodes of these cells. Elsewhere the mean is left alone. Returns 1 at the owned nodes about such jumps, else 0. Collective.
+  /// values at nodes in the liquid, NaN elsewhere. Elsewhere the mean is left alone. Returns 1 at the owned nodes about such jumps, else 0. Collective.
   template <int dim>
   Vector
   set_means_about_jumps(const MeshData<dim>                             &data,
-                        const Vector                                    &phi,
                         const MaterialProperty<dim>                     &property,
                         const std::vector<double>                       &at_nodes,
                         const std::function<double(const Point<dim> &)> &formula);
