@@ -9,7 +9,7 @@ namespace treacle
   namespace
   {
     /// Of the jump: as far from the mean over its points may a node be. That has the noise of where they lie, and keeps the shape of what is brought.
-    constexpr double most_apart = 0.15;
+    constexpr double most_apart = 0.1;
 
     double
     log_of(const double value)
