@@ -198,10 +198,12 @@ namespace treacle
             !is_fall(d, domain.scene, mesh.node_position[node], state.time, dt))
           {
             state.before->v->set(node, v);
+            state.before->v_along->set(node, v);
             blow.local_element(node) = 1;
           }
       }
     state.before->v->update_ghost_values();
+    state.before->v_along->update_ghost_values();
     blow.update_ghost_values();
     if (state.before->u)
       forget_missed(state, domain, blow);

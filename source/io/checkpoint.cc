@@ -54,7 +54,7 @@ namespace treacle
       fs::remove_all(directory, ignored);
     }
 
-    const std::string scalar_prefix = "Scalar ", format_version = "9";
+    const std::string scalar_prefix = "Scalar ", format_version = "10";
 
     template <int dim>
     void

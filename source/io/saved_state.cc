@@ -29,8 +29,9 @@ namespace treacle
         for (auto &component : state.v.component)
           at_nodes.push_back(&component);
         if (state.before && state.before->v)
-          for (auto &component : state.before->v->component)
-            at_nodes.push_back(&component);
+          for (auto *v : {&*state.before->v, &*state.before->v_along})
+            for (auto &component : v->component)
+              at_nodes.push_back(&component);
         if (state.before && state.before->u)
           at_faces.push_back(&*state.before->u);
         if (state.material)
@@ -217,7 +218,8 @@ namespace treacle
         state.before.emplace();
         state.before->dt = info.number("Step before");
         if (before != "faces")
-          state.before->v.emplace(mesh->nodes);
+          for (auto *v : {&state.before->v, &state.before->v_along})
+            v->emplace(mesh->nodes);
         if (before != "nodes")
           state.before->u.emplace(mesh->faces);
       }

@@ -127,15 +127,9 @@ namespace treacle
     const auto carry = [&](std::vector<NodeField<dim>> &&fields, const VelocityInStep<dim> &v, const double time) {
       return carried(std::move(fields), v, time, reach);
     };
-    FaceAdvection<dim>(old, domain, difference, velocity, carry).advance(state);
+    NodeVector<dim> along = FaceAdvection<dim>(old, domain, difference, velocity, carry).advance(state);
+    state.before          = {dt, at_nodes_of(*mesh, old.v), std::move(along), missed_by_nodes(old, domain, state)};
     return state;
-  }
-
-  template <int dim>
-  VelocityBefore<dim>
-  Advection<dim>::velocity_before(const State<dim> &next) const
-  {
-    return {dt, at_nodes_of(*next.mesh, old.v), missed_by_nodes(old, domain, next)};
   }
 
   template <int dim>

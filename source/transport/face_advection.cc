@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) the Treacle authors
 
+#include <treacle/mesh/surface_size.h>
 #include <treacle/transport/face_advection.h>
 #include <treacle/transport/face_residual.h>
 #include <treacle/transport/velocity_curvature.h>
@@ -14,6 +15,21 @@ namespace treacle
 
     /// How far from the surface faces of the air begin, which few markers will find in the liquid, in leaves.
     constexpr double outside_leaves = 0.25;
+
+    /// How far below the surface nodes begin that know what their liquid had a step before, in leaves: no multiple of a half, where nodes lie
+    /// below a surface along leaves. Nearer to it the velocity that paths come from is continued into the air, or flattened by the fit, and
+    /// what liquid has there now is not.
+    constexpr double skin_leaves = 1.9;
+
+    /// Values at owned nodes ([node * dim + component]). Collective.
+    template <int dim>
+    void
+    set_values(NodeVector<dim> &v, const std::vector<LocalIndex> &nodes, const std::vector<double> &values)
+    {
+      for (unsigned int i = 0; i < values.size(); ++i)
+        v.component[i % dim].local_element(nodes[i / dim]) = values[i];
+      v.update_ghost_values();
+    }
 
     /// Faces that take what is known of them in different ways; those of nodes come first.
     template <int dim>
@@ -70,9 +86,21 @@ namespace treacle
   typename FaceAdvection<dim>::Past
   FaceAdvection<dim>::past(CarriedFields<dim> &&now) const
   {
-    const NodeVector<dim> &v = *old.before->v;
+    const NodeVector<dim> &v = *old.before->v, &along = *old.before->v_along;
+    NodeVector<dim>        change(old.mesh->nodes);
+    Vector                 knows(old.mesh->nodes);
+    for (LocalIndex node = 0; node < old.mesh->n_owned_nodes(); ++node)
+      if (const Tensor<1, dim> then = along.value(node); !std::isnan(then[0]))
+        {
+          change.set(node, old.v.value(node) - then);
+          knows.local_element(node) = 1;
+        }
+    change.update_ghost_values();
+    knows.update_ghost_values();
     return {std::move(now),
             carry(fields_of(v), velocity.carried[2], difference.dt + old.before->dt),
+            std::move(change),
+            std::move(knows),
             combined(0.5, old.v, 0.5, v),
             {old, domain}};
   }
@@ -90,24 +118,40 @@ namespace treacle
 
   template <int dim>
   std::vector<double>
-  FaceAdvection<dim>::change_along(Paths &&paths, const Past &past, const std::vector<NodeField<dim>> &before) const
+  FaceAdvection<dim>::change_along(const Paths &paths, const Past &past) const
   {
-    const Tracer<dim> tracer(*old.mesh);
-    Guesses           cells   = paths.cells;
-    const auto        further = tracer.trace(paths.from, past.between, -old.before->dt, paths.cells);
-    const auto        values  = tracer.evaluate(further, before, paths.cells);
-    std::transform(
-      paths.values.begin(), paths.values.end(), values.begin(), paths.values.begin(), std::minus<>());
-    past.fall.set_change(paths.values, paths.from, cells, old.before->dt);
-    return std::move(paths.values);
+    constexpr double            rounding = 1e-6; // of the part that is known: what lies beside nodes that know is of no other cell
+    const Tracer<dim>           tracer(*old.mesh);
+    Guesses                     cells = paths.cells, there;
+    std::vector<NodeField<dim>> fields = fields_of(past.change);
+    fields.push_back({&past.knows});
+    const std::vector<double> known = tracer.evaluate(paths.from, fields, cells);
+    std::vector<unsigned int> unknown;
+    std::vector<Point<dim>>   from;
+    std::vector<double>       change;
+    for (unsigned int i = 0; i < paths.from.size(); ++i)
+      {
+        const double *of_point = &known[i * (dim + 1)];
+        change.insert(change.end(), of_point, of_point + dim);
+        if (of_point[dim] > 1 - rounding)
+          continue;
+        unknown.push_back(i);
+        from.push_back(paths.from[i]);
+        there.push_back(cells[i]);
+      }
+    const std::vector<double> now     = tracer.evaluate(from, past.now.fields, there);
+    const auto                further = tracer.trace(from, past.between, -old.before->dt, there);
+    const std::vector<double> before  = tracer.evaluate(further, past.before.fields, there);
+    for (unsigned int i = 0; i < unknown.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        change[dim * unknown[i] + d] = now[dim * i + d] - before[dim * i + d];
+    past.fall.set_change(change, paths.from, cells, old.before->dt);
+    return change;
   }
 
   template <int dim>
-  typename FaceAdvection<dim>::AtNodes
-  FaceAdvection<dim>::at_nodes(const CarriedFields<dim>      &now,
-                               const Past                    *past,
-                               const Mesh<dim>               &mesh,
-                               const std::vector<LocalIndex> &faces) const
+  typename FaceAdvection<dim>::ToNodes
+  FaceAdvection<dim>::to_nodes(const CarriedFields<dim> &now, const Mesh<dim> &mesh, const std::vector<LocalIndex> &faces) const
   {
     Vector is_needed = mesh.zeros(mesh.nodes);
     for (const LocalIndex f : faces)
@@ -122,24 +166,34 @@ namespace treacle
           nodes.push_back(node);
           ends.add_node(node);
         }
-    AtNodes    result{NodeVector<dim>(mesh.nodes), NodeVector<dim>(mesh.nodes)};
-    const auto set = [&](NodeVector<dim> &v, const std::vector<double> &values) {
-      for (unsigned int i = 0; i < values.size(); ++i)
-        v.component[i % dim].local_element(nodes[i / dim]) = values[i];
-      v.update_ghost_values();
-    };
-    Paths paths = paths_to(std::move(ends), now.fields);
-    set(result.now, paths.values);
-    if (past != nullptr)
-      set(result.change, change_along(std::move(paths), *past, past->before.fields));
-    return result;
+    return {std::move(nodes), paths_to(std::move(ends), now.fields)};
   }
 
   template <int dim>
-  void
+  NodeVector<dim>
+  FaceAdvection<dim>::known_along(const State<dim> &state, const ToNodes &to, const std::vector<NodeField<dim>> &bent) const
+  {
+    NodeVector<dim>         along(state.mesh->nodes, std::numeric_limits<double>::quiet_NaN());
+    std::vector<LocalIndex> nodes;
+    std::vector<Point<dim>> from;
+    Guesses                 cells;
+    for (unsigned int i = 0; i < to.nodes.size(); ++i)
+      if (const LocalIndex node = to.nodes[i]; state.phi.local_element(node) < -skin_leaves * surface_size_at_node(*state.mesh, node))
+        {
+          nodes.push_back(node);
+          from.push_back(to.paths.from[i]);
+          cells.push_back(to.paths.cells[i]);
+        }
+    set_values(along, nodes, Tracer<dim>(*old.mesh).evaluate(from, bent, cells));
+    return along;
+  }
+
+  template <int dim>
+  NodeVector<dim>
   FaceAdvection<dim>::advance(State<dim> &state) const
   {
-    const Mesh<dim>      &mesh = *state.mesh;
+    const Mesh<dim>      &mesh    = *state.mesh;
+    const bool            is_same = &mesh == old.mesh.get();
     const FaceGroups<dim> faces(state);
     PathEnds<dim>         ends(mesh, *old.mesh, velocity.carried[4]);
     std::for_each(faces.liquid, faces.all.end(), [&](const LocalIndex f) { ends.add_face(f); });
@@ -147,35 +201,38 @@ namespace treacle
       for (unsigned int i = 0; i < values.size(); ++i)
         state.u.local_element(begin[i / dim]) += weight * mesh.face_normal[begin[i / dim]][i % dim] * values[i];
     };
-    const auto add_of_nodes = [&](const auto end, const double weight, const NodeVector<dim> &v) {
+    CarriedFields<dim> now = carry(fields_of(old.v), velocity.carried, difference.dt);
+    // a scheme's corrections do the same
+    const Vector                      bends = now.corrections.empty() ? bending_nodes(domain, difference.dt) : Vector();
+    const VelocityCurvature<dim>      curvature(*old.mesh, old.v, bends);
+    const std::vector<NodeField<dim>> bent = curvature.bent(now.fields);
+    Paths paths = paths_to(std::move(ends), is_same ? bent : now.fields); // faces of another mesh have no nodes here
+    add(faces.liquid, 1, paths.values);
+    if (is_same)
+      std::for_each(faces.liquid, faces.all.end(), [&](const LocalIndex f) {
+        state.u.local_element(f) -= mesh.face_normal[f] * curvature.at_face(f);
+      });
+    keep_what_nodes_miss(old, domain, difference, mesh, faces.all, state.u);
+    const ToNodes to           = to_nodes(now, mesh, faces.all);
+    const auto    add_of_nodes = [&](const auto end, const double weight, const std::vector<double> &values) {
+      NodeVector<dim> v(mesh.nodes);
+      set_values(v, to.nodes, values);
       std::for_each(faces.all.begin(), end, [&](const LocalIndex f) {
         state.u.local_element(f) += weight * face_velocity(mesh, v, f);
       });
     };
-    CarriedFields<dim> now = carry(fields_of(old.v), velocity.carried, difference.dt);
-    // a scheme's corrections do the same, and faces of another mesh have no nodes here
-    const Vector bends = now.corrections.empty() && &mesh == old.mesh.get() ? bending_nodes(domain, difference.dt) : Vector();
-    const VelocityCurvature<dim> curvature(mesh, old.v, bends);
-    Paths paths = paths_to(std::move(ends), curvature.bent(now.fields));
-    add(faces.liquid, 1, paths.values);
-    std::for_each(faces.liquid, faces.all.end(), [&](const LocalIndex f) {
-      state.u.local_element(f) -= mesh.face_normal[f] * curvature.at_face(f);
-    });
-    keep_what_nodes_miss(old, domain, difference, mesh, faces.all, state.u);
-    std::optional<Past> past;
+    add_of_nodes(faces.liquid, 1, to.paths.values);
+    const ToNodes   none;
+    NodeVector<dim> along = known_along(state, now.corrections.empty() ? to : none, bent);
     if (difference.before != 0)
-      past.emplace(this->past(std::move(now)));
-    const AtNodes nodes = past ? at_nodes(past->now, &*past, mesh, {faces.all.begin(), faces.deep}) :
-                                 at_nodes(now, nullptr, mesh, {faces.all.begin(), faces.liquid});
-    add_of_nodes(faces.liquid, 1, nodes.now);
-    if (past)
       {
-        add_of_nodes(faces.deep, -difference.before, nodes.change);
+        const Past past = this->past(std::move(now));
+        add_of_nodes(faces.deep, -difference.before, change_along(to.paths, past));
         paths.drop(faces.deep - faces.liquid);
-        const VelocityCurvature<dim> curvature_before(mesh, *old.before->v, bends);
-        add(faces.deep, -difference.before, change_along(std::move(paths), *past, curvature_before.bent(past->before.fields)));
+        add(faces.deep, -difference.before, change_along(paths, past));
       }
     state.u.update_ghost_values();
+    return along;
   }
 
   template class FaceAdvection<2>;

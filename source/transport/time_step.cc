@@ -22,8 +22,7 @@ namespace treacle
     prm.add_parameter("Maximum CFL number",
                       cfl,
                       "Leaves that liquid crosses in a step, each of those that are there; inside the liquid they "
-                      "count as no larger than the surface's. Between liquids of different density that are carried along, with little "
-                      "viscosity, at most 2.",
+                      "count as no larger than the surface's.",
                       Patterns::Double(1e-3, 100));
     prm.add_parameter("Maximum time step",
                       maximum,
@@ -84,18 +83,6 @@ namespace treacle
       return 2 * distance / (v + std::sqrt(v * v + 4 * g * distance));
     }
 
-    /// Leaves that liquid may cross at a node if elsewhere it may cross so many: fewer between liquids of different density that are carried along, and
-    /// that viscosity does not hold together (cell Reynolds numbers above 40). They win energy there in longer steps.
-    template <int dim>
-    double
-    leaves_to_cross(const State<dim> &state, const LocalIndex node, const double leaf, const double leaves)
-    {
-      if (!state.material || !(state.material->density.least.local_element(node) < state.material->density.largest.local_element(node)))
-        return leaves;
-      const double nu = state.material->viscosity.mean.local_element(node) / state.material->density.mean.local_element(node);
-      return 40 * nu < state.v.value(node).norm() * leaf ? std::min(leaves, 2.) : leaves;
-    }
-
     /// The longest in which nothing crosses more leaves. Collective.
     template <int dim>
     double
@@ -108,12 +95,10 @@ namespace treacle
       double           longest = longest_step(0, g, leaves * largest_surface_size(mesh));
       for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
         if (domain.is_active_node[node])
-          {
-            const double leaf = surface_size_at_node(mesh, node);
-            longest           = std::min(
-              longest,
-              longest_step(state.v.value(node).norm(), g, leaves_to_cross(state, node, leaf, leaves) * leaf));
-          }
+          longest = std::min(longest,
+                             longest_step(state.v.value(node).norm(),
+                                          g,
+                                          leaves * surface_size_at_node(mesh, node)));
       return Utilities::MPI::min(longest, mesh.communicator());
     }
 

@@ -228,8 +228,8 @@ namespace treacle
                         const typename Advection<dim>::SurfaceMotion motion) const
   {
     auto next = std::make_unique<State<dim>>(advection.advance(mesh, reach, motion));
-    if (remembers(old.time))
-      next->before = advection.velocity_before(*next);
+    if (!remembers(old.time))
+      next->before.reset();
     // the next solves begin with it
     next->v = advection.velocity_at_end(*mesh);
     // a state that is moved may keep its old ghosts
@@ -264,7 +264,7 @@ namespace treacle
   Transport<dim>::stay(State<dim> &state, const BackwardDifference &difference) const
   {
     const double        time = state.time;
-    VelocityBefore<dim> before{difference.dt, {}, state.u};
+    VelocityBefore<dim> before{difference.dt, {}, {}, state.u};
     state.u.zero_out_ghost_values();
     if (difference.before != 0)
       state.u.sadd(difference.now, difference.before, *state.before->u);
@@ -284,12 +284,14 @@ namespace treacle
                            const double       dt,
                            const bool         is_advected)
   {
-    VelocityBefore<dim> before{dt, {}, is_advected ? missed_by_nodes(*now.state, *now.domain) : now.state->u};
+    VelocityBefore<dim> before{dt, {}, {}, is_advected ? missed_by_nodes(*now.state, *now.domain) : now.state->u};
     if (is_advected)
-      before.v = combined(2, now.state->v, -1, ahead.state->v);
+      {
+        before.v = combined(2, now.state->v, -1, ahead.state->v);
+        before.v_along.emplace(now.state->mesh->nodes, std::numeric_limits<double>::quiet_NaN());
+      }
     before.u->zero_out_ghost_values();
-    before.u->sadd(
-      2, -1, is_advected ? missed_by_nodes(*ahead.state, *ahead.domain) : ahead.state->u);
+    before.u->sadd(2, -1, is_advected ? missed_by_nodes(*ahead.state, *ahead.domain) : ahead.state->u);
     before.u->update_ghost_values();
     return before;
   }

@@ -17,16 +17,24 @@ namespace treacle
       std::vector<Point<dim>> x;
       Guesses                 cells;
 
+      explicit PassedNodes(const Mesh<dim> &mesh)
+        : mesh(mesh)
+      {}
+
       PassedNodes(const State<dim> &state, const double reach)
-        : mesh(*state.mesh)
+        : PassedNodes(*state.mesh)
       {
         for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
           if (state.phi.local_element(node) < reach)
-            {
-              nodes.push_back(node);
-              x.push_back(mesh.node_position[node]);
-              cells.push_back(mesh.node_cells[mesh.node_cell_start[node]]);
-            }
+            add(node);
+      }
+
+      void
+      add(const LocalIndex node)
+      {
+        nodes.push_back(node);
+        x.push_back(mesh.node_position[node]);
+        cells.push_back(mesh.node_cells[mesh.node_cell_start[node]]);
       }
 
       std::vector<Tensor<1, dim>>
@@ -48,22 +56,33 @@ namespace treacle
       NodeVector<dim>                   change; ///< in the step before, of what is at each node now (m/s)
       const std::vector<unsigned char> &held;
 
+      /// Where it is the liquid's, nodes may remember what that had before.
       Changing(const NodeVector<dim>            &now,
                const NodeVector<dim>            &before,
-               const double                      dt,
+               const State<dim>                 &state,
                const PassedNodes<dim>           &passed,
                const std::vector<unsigned char> &held)
         : now(now)
         , change(combined(1, now, -1, before))
         , held(held)
       {
+        const NodeVector<dim> &along   = *state.before->v_along;
+        const NodeVector<dim>  between = combined(0.5, now, 0.5, before);
+        const auto             knows   = [&](const LocalIndex node) {
+          return !std::isnan(along.component[0].local_element(node)) && now.value(node) == state.v.value(node);
+        };
+        PassedNodes<dim> known(passed.mesh), unknown(passed.mesh);
+        for (unsigned int i = 0; i < passed.nodes.size(); ++i)
+          (knows(passed.nodes[i]) ? known : unknown).add(passed.nodes[i]);
         const Tracer<dim>         tracer(passed.mesh);
-        const NodeVector<dim>     between = combined(0.5, now, 0.5, before);
-        Guesses                   cells   = passed.cells;
-        const auto                from = tracer.trace(passed.x, between, -dt, cells, passed.values(between));
+        Guesses                   cells = unknown.cells;
+        const auto from = tracer.trace(unknown.x, between, -state.before->dt, cells, unknown.values(between));
         const std::vector<double> values = tracer.evaluate(from, fields_of(before), cells);
-        set(passed, change, [&](const unsigned int i, const unsigned int d) {
-          return now.component[d].local_element(passed.nodes[i]) - values[dim * i + d];
+        set(unknown, change, [&](const unsigned int i, const unsigned int d) {
+          return now.component[d].local_element(unknown.nodes[i]) - values[dim * i + d];
+        });
+        set(known, change, [&](const unsigned int i, const unsigned int d) {
+          return now.component[d].local_element(known.nodes[i]) - along.component[d].local_element(known.nodes[i]);
         });
       }
 
@@ -133,8 +152,8 @@ namespace treacle
     const double                     dt     = state.before->dt;
     const std::vector<unsigned char> none(domain.constrained.size());
     const PassedNodes<dim>            passed(state, reach);
-    const Changing<dim>               liquid(state.v, before, dt, passed, domain.constrained);
-    const Changing<dim>               moving_surface(surface, of_surface(before), dt, passed, none);
+    const Changing<dim>               liquid(state.v, before, state, passed, domain.constrained);
+    const Changing<dim>               moving_surface(surface, of_surface(before), state, passed, none);
     const Tracer<dim>                 tracer(*state.mesh);
     const std::vector<Tensor<1, dim>> first = passed.values(surface);
     std::vector<NodeVector<dim>>      carried, moving; // in the middle and at the end

@@ -154,7 +154,7 @@ check_errors(const MPI_Comm &comm)
   refuse<2>(comm, tests::ball_mesh<2>());
   fs::resize_file("out2/checkpoint/leaves", 36);
   refuse<2>(comm, tests::ball_mesh<2>());
-  replace_in_info("Format = 9", "Format = 8");
+  replace_in_info("Format = 10", "Format = 9");
   refuse<2>(comm, tests::ball_mesh<2>());
   checkpoint<2>(comm).remove();
   refuse<2>(comm, tests::ball_mesh<2>());
@@ -192,7 +192,12 @@ check_all_parts(const MPI_Comm &comm, const bool at_nodes)
     state.before.emplace();
     state.before->dt = 0.1;
     if (at_nodes)
-      state.before->v = state.v;
+      {
+        state.before->v       = state.v;
+        state.before->v_along = state.v;
+        for (treacle::Vector &component : state.before->v_along->component)
+          component *= 2;
+      }
     state.before->u = state.u;
     state.phi = -0.;
     state.phi.update_ghost_values();
@@ -217,12 +222,15 @@ check_all_parts(const MPI_Comm &comm, const bool at_nodes)
     same = same && points[k].numbers() == saved_points[k].numbers();
   if (at_nodes)
     for (unsigned int d = 0; d < dim; ++d)
-      add(loaded.before->v->component[d], saved.before->v->component[d]);
+      {
+        add(loaded.before->v->component[d], saved.before->v->component[d]);
+        add(loaded.before->v_along->component[d], saved.before->v_along->component[d]);
+      }
   add(*loaded.before->u, *saved.before->u);
-  // numbers: phi, v, material (and v) of each node, u of each face, pressures
+  // numbers: phi, v, material (and v, v_along) of each node, u of each face, pressures
   const Mesh<dim>    &mesh = *saved.mesh;
   const std::uint64_t n_numbers =
-    mesh.nodes->size() * (7 + (at_nodes ? 2 : 1) * dim) +
+    mesh.nodes->size() * (7 + (at_nodes ? 3 : 1) * dim) +
     mesh.faces->size() * 2 + mesh.cells->size();
   const bool is_small =
     std::filesystem::file_size("out" + std::to_string(dim) + "/checkpoint/numbers") == 8 * n_numbers;

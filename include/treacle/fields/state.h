@@ -71,6 +71,8 @@ namespace treacle
   {
     double                         dt; ///< since then (s)
     std::optional<NodeVector<dim>> v;  ///< where liquid is advected
+    /// And what the liquid that is at a node now had where it was then; NaN where that is not known.
+    std::optional<NodeVector<dim>> v_along;
     /// Of the faces: where liquid is advected what v misses of it, u - P v; NaN where the mesh before had no such face.
     std::optional<Vector>          u;
   };
@@ -118,7 +120,8 @@ namespace treacle
     if (copy->material)
       copy->material->update_ghost_values();
     if (copy->before && copy->before->v)
-      copy->before->v->update_ghost_values();
+      for (const auto *v : {&*copy->before->v, &*copy->before->v_along})
+        v->update_ghost_values();
     if (copy->before && copy->before->u)
       copy->before->u->update_ghost_values();
     return copy;

@@ -18,10 +18,20 @@ namespace treacle
   {
     std::array<Vector, dim> component;
 
+    /// Zero.
     explicit NodeVector(const std::shared_ptr<const Utilities::MPI::Partitioner> &nodes)
     {
       for (Vector &v : component)
         v.reinit(nodes);
+    }
+
+    /// The same value everywhere, ghosts too. Collective.
+    NodeVector(const std::shared_ptr<const Utilities::MPI::Partitioner> &nodes, const double value)
+      : NodeVector(nodes)
+    {
+      for (Vector &v : component)
+        v = value;
+      update_ghost_values();
     }
 
     Tensor<1, dim>

@@ -54,18 +54,13 @@ namespace treacle
       none
     };
 
-    /// The state at old.time + dt: phi, carried material, and u of the faces that may carry
-    /// liquid, which is what the backward difference starts from. MacCormack's correction
+    /// The state at old.time + dt: phi, carried material, u of the faces that may carry
+    /// liquid, which is what the backward difference starts from, and the old velocity for the next one. MacCormack's correction
     /// needs what is within @p reach (m) of the liquid. A surface that stays needs the old mesh.
     State<dim>
     advance(std::shared_ptr<const Mesh<dim>> mesh,
             const double                     reach,
             const SurfaceMotion              motion = SurfaceMotion::carried) const;
-
-    /// The old velocity at the nodes of the next state, and what they miss of it at its faces, for the next
-    /// backward difference.
-    VelocityBefore<dim>
-    velocity_before(const State<dim> &next) const;
 
     /// Where points of the surface are after dt, or would be if there were no walls.
     std::vector<Point<dim>>

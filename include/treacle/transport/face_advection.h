@@ -31,16 +31,19 @@ namespace treacle
                   const StepVelocity<dim>  &velocity,
                   const Carry              &carry);
 
-    /// u of a state that has its phi, and no velocity yet: what the backward difference starts from. Collective.
-    void
+    /// u of a state that has its phi, and no velocity yet: what the backward difference starts from. The old velocity where the
+    /// liquid at its nodes comes from, for the next one. Collective.
+    NodeVector<dim>
     advance(State<dim> &state) const;
 
   private:
-    /// The velocity of now and of the step before, and that of the way between.
+    /// The velocity of now and of the step before.
     struct Past
     {
       CarriedFields<dim> now, before;
-      NodeVector<dim>    between;
+      NodeVector<dim>    change;  ///< since then along the paths to nodes that know it
+      Vector             knows;   ///< 1 at these, else 0
+      NodeVector<dim>    between; ///< of the way between
       FreeFall<dim>      fall;
     };
 
@@ -69,24 +72,28 @@ namespace treacle
     Paths
     paths_to(PathEnds<dim> &&ends, const std::vector<NodeField<dim>> &now) const;
 
-    /// By how much the velocity changed in the step before along these paths, from what it was @p before, in place of the values.
+    /// By how much the velocity changed in the step before along these paths: what all nodes about know of it, else from where a path
+    /// that goes on comes from.
     std::vector<double>
-    change_along(Paths &&paths, const Past &past, const std::vector<NodeField<dim>> &before) const;
+    change_along(const Paths &paths, const Past &past) const;
 
-    /// The velocity of now where nodes come from, and by how much it changed in the step before along their paths.
-    struct AtNodes
+    /// Nodes, and the paths to them.
+    struct ToNodes
     {
-      NodeVector<dim> now, change;
+      std::vector<LocalIndex> nodes;
+      Paths                   paths;
     };
 
-    /// At the nodes of some faces; no change without a past. The mean of the change is smoother than what is read at the faces, which
-    /// feeds short waves of a surface without viscosity; deep in the liquid it feeds vortices. In the air, of which faces count
+    /// Those of some faces. Near the surface the mean of the change at nodes is smoother than what is read at the faces, which
+    /// feeds short waves of a surface without viscosity. In the air, of which faces count
     /// only that markers are about to find in the liquid, all that is known is that of its nodes.
-    AtNodes
-    at_nodes(const CarriedFields<dim>      &now,
-             const Past                    *past,
-             const Mesh<dim>               &mesh,
-             const std::vector<LocalIndex> &faces) const;
+    ToNodes
+    to_nodes(const CarriedFields<dim> &now, const Mesh<dim> &mesh, const std::vector<LocalIndex> &faces) const;
+
+    /// At those of the nodes that are below the skin of a state the velocity of now where their liquid comes from, @p bent between nodes; NaN
+    /// elsewhere.
+    NodeVector<dim>
+    known_along(const State<dim> &state, const ToNodes &to, const std::vector<NodeField<dim>> &bent) const;
 
     const State<dim>        &old;
     const LiquidDomain<dim> &domain;

@@ -45,7 +45,8 @@ namespace treacle
   ///   v(x, s) = v^n(y) + s/dt' (v^n(z) - v^{n-1}(z')),
   ///
   /// with dt' the step before. What is at x after s was at y at the begin of the step; the way from z' to z, which takes dt',
-  /// has the same middle as that from y to x, so that what turns steadily goes on to. For components that are held, and farther
+  /// has the same middle as that from y to x, so that what turns steadily goes on to; of z it is what the nodes about remember, where they do
+  /// (VelocityBefore). For components that are held, and farther
   /// than @p reach (m) from the liquid, y, z and z' are x. So at half a step and at its end; quadratic in s between. Where no
   /// velocity is known before, v stays as it is. Collective.
   template <int dim>
