@@ -110,7 +110,8 @@ namespace treacle
   State<dim>
   Advection<dim>::advance(std::shared_ptr<const Mesh<dim>> mesh,
                           const double                     reach,
-                          const SurfaceMotion              motion) const
+                          const SurfaceMotion              motion,
+                          const Memory                     memory) const
   {
     State<dim> state(mesh);
     state.time = old.time + dt;
@@ -127,8 +128,10 @@ namespace treacle
     const auto carry = [&](std::vector<NodeField<dim>> &&fields, const VelocityInStep<dim> &v, const double time) {
       return carried(std::move(fields), v, time, reach);
     };
-    NodeVector<dim> along = FaceAdvection<dim>(old, domain, difference, velocity, carry).advance(state);
-    state.before          = {dt, at_nodes_of(*mesh, old.v), std::move(along), missed_by_nodes(old, domain, state)};
+    const bool      remembers = memory == Memory::velocity;
+    NodeVector<dim> along     = FaceAdvection<dim>(old, domain, difference, velocity, carry).advance(state, remembers);
+    if (remembers)
+      state.before = {dt, at_nodes_of(*mesh, old.v), std::move(along), missed_by_nodes(old, domain, state)};
     return state;
   }
 

@@ -190,7 +190,7 @@ namespace treacle
 
   template <int dim>
   NodeVector<dim>
-  FaceAdvection<dim>::advance(State<dim> &state) const
+  FaceAdvection<dim>::advance(State<dim> &state, const bool remembers) const
   {
     const Mesh<dim>      &mesh    = *state.mesh;
     const bool            is_same = &mesh == old.mesh.get();
@@ -213,7 +213,7 @@ namespace treacle
         state.u.local_element(f) -= mesh.face_normal[f] * curvature.at_face(f);
       });
     keep_what_nodes_miss(old, domain, difference, mesh, faces.all, state.u);
-    const ToNodes to           = to_nodes(now, mesh, faces.all);
+    const ToNodes to           = to_nodes(now, mesh, {faces.all.begin(), remembers ? faces.all.cend() : faces.deep});
     const auto    add_of_nodes = [&](const auto end, const double weight, const std::vector<double> &values) {
       NodeVector<dim> v(mesh.nodes);
       set_values(v, to.nodes, values);
@@ -223,7 +223,7 @@ namespace treacle
     };
     add_of_nodes(faces.liquid, 1, to.paths.values);
     const ToNodes   none;
-    NodeVector<dim> along = known_along(state, now.corrections.empty() ? to : none, bent);
+    NodeVector<dim> along = known_along(state, remembers && now.corrections.empty() ? to : none, bent);
     if (difference.before != 0)
       {
         const Past past = this->past(std::move(now));

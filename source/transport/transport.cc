@@ -227,9 +227,9 @@ namespace treacle
                         const double                            reach,
                         const typename Advection<dim>::SurfaceMotion motion) const
   {
-    auto next = std::make_unique<State<dim>>(advection.advance(mesh, reach, motion));
-    if (!remembers(old.time))
-      next->before.reset();
+    using Memory = typename Advection<dim>::Memory;
+    auto next    = std::make_unique<State<dim>>(
+      advection.advance(mesh, reach, motion, remembers(old.time) ? Memory::velocity : Memory::none));
     // the next solves begin with it
     next->v = advection.velocity_at_end(*mesh);
     // a state that is moved may keep its old ghosts

@@ -54,13 +54,21 @@ namespace treacle
       none
     };
 
+    /// What the next state knows of the old velocity.
+    enum class Memory
+    {
+      none,
+      velocity
+    };
+
     /// The state at old.time + dt: phi, carried material, u of the faces that may carry
-    /// liquid, which is what the backward difference starts from, and the old velocity for the next one. MacCormack's correction
+    /// liquid, which is what the backward difference starts from, and what it remembers for the next one. MacCormack's correction
     /// needs what is within @p reach (m) of the liquid. A surface that stays needs the old mesh.
     State<dim>
     advance(std::shared_ptr<const Mesh<dim>> mesh,
             const double                     reach,
-            const SurfaceMotion              motion = SurfaceMotion::carried) const;
+            const SurfaceMotion              motion = SurfaceMotion::carried,
+            const Memory                     memory = Memory::none) const;
 
     /// Where points of the surface are after dt, or would be if there were no walls.
     std::vector<Point<dim>>

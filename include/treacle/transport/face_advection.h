@@ -31,10 +31,10 @@ namespace treacle
                   const StepVelocity<dim>  &velocity,
                   const Carry              &carry);
 
-    /// u of a state that has its phi, and no velocity yet: what the backward difference starts from. The old velocity where the
-    /// liquid at its nodes comes from, for the next one. Collective.
+    /// u of a state that has its phi, and no velocity yet: what the backward difference starts from. If it @p remembers for the next one,
+    /// the old velocity where the liquid at its nodes comes from; NaN where that is not known. Collective.
     NodeVector<dim>
-    advance(State<dim> &state) const;
+    advance(State<dim> &state, const bool remembers) const;
 
   private:
     /// The velocity of now and of the step before.

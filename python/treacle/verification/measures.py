@@ -10,6 +10,8 @@ from treacle import Run
 from treacle.stream import area_of_cut, centre_of_cut
 
 TIME = "Time (s)"
+# of solids
+MOTIONS = {"Displacement", "Rotation", "Velocity", "Angular velocity"}
 
 
 class Results:
@@ -41,10 +43,12 @@ class Results:
     def energy_gain(self):
         """The largest rise of the total energy above what it was before, over the
         largest kinetic energy plus the range of the potential one; 0 where the surface
-        is kept, for then gravity goes on working, where an emitter works, and where nothing moves."""
+        is kept, for then gravity goes on working, where an emitter or a solid that moves works, and where nothing moves."""
         emitted = (numpy.any(values) for name, values in self.run.statistics.items()
                    if "Emitted" in name)
-        if self.run.parameters.get("Steps/Surface") == "false" or any(emitted):
+        moved = (value.strip("0; ") for name, value in self.run.parameters.items()
+                 if name.startswith("Solid ") and name.rpartition("/")[2] in MOTIONS)
+        if self.run.parameters.get("Steps/Surface") == "false" or any(emitted) or any(moved):
             return 0.
         energy, potential = self.energy(), self["Potential energy (J)"]
         rise = numpy.max(energy - numpy.minimum.accumulate(energy))
