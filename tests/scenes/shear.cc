@@ -31,7 +31,6 @@ slide(const Sliding &scene)
                                    scene.velocity + "\nend\n",
                                  0,
                                  1);
-  // the first step may change what is given
   double most = 0, released = rows[0].at("Kinetic energy (J)");
   for (const Row &row : rows)
     {
