@@ -23,17 +23,18 @@ namespace treacle
     /// A surface that moves by fewer leaves keeps its distances and markers.
     constexpr double far = 0.1;
 
-    /// What a step that came to a @p state did to the volume that the liquid had before it, of what is @p wanted (m^dim): what is missing in
-    /// walls and liquid, and what was lost otherwise. Collective.
+    /// What a step that came to a @p state did to the volume that the liquid had before it, of what is @p wanted (m^dim), beside what
+    /// emitters did: what is missing in walls and liquid, and what was lost otherwise. Collective.
     template <int dim>
     void
-    account_for(typename Transport<dim>::Info &info,
-                const double                   before,
-                const double                   wanted,
-                const bool                     is_kept,
-                const MovedSurface<dim>       &surface,
-                const MeshData<dim>           &data,
-                const State<dim>              &state)
+    account_for(typename Transport<dim>::Info  &info,
+                const double                    before,
+                const double                    wanted,
+                const bool                      is_kept,
+                const std::vector<Parcel<dim>> &inflow,
+                const MovedSurface<dim>        &surface,
+                const MeshData<dim>            &data,
+                const State<dim>               &state)
     {
       const double won = liquid_volume(data, state.phi, state.time) - info.emitted - before;
       if (is_kept && -won > least_lost * wanted) // nor where there is no liquid
@@ -43,7 +44,7 @@ namespace treacle
           info.missing = std::min(sum(info.lost, surface.mesh.communicator()), -won);
           if (info.missing < least_lost * wanted)
             info.missing = 0;
-          info.swallowed = (-won - info.missing) / swept_outwards(surface);
+          info.swallowed = (-won - info.missing) / (swept_outwards(surface) + taken(inflow, surface.mesh.communicator()));
         }
       info.drift = wanted > 0 ? (won + info.missing) / wanted : 0;
     }
@@ -102,7 +103,7 @@ namespace treacle
     info.emitted       = sum(inflow, mesh->communicator());
     tracking.follow_markers(*next, *data, difference.dt, time_step.reach_of_distance(reach, *mesh));
     const double wanted = volume + info.emitted; // what earlier steps left to be corrected is not of this one
-    account_for<dim>(info, liquid.domain->total_volume(), wanted, tracking.keeps_volume(), moved, *data, *next);
+    account_for<dim>(info, liquid.domain->total_volume(), wanted, tracking.keeps_volume(), inflow, moved, *data, *next);
     auto surface = tracking.settle(*next, *data, wanted - info.missing, [&] {
       return all_parcels<dim>(advection, inflow, info.lost, -info.missing, *mesh);
     });
@@ -195,12 +196,8 @@ namespace treacle
     if (flux <= 0)
       return;
     const double         dt = std::min(moved.missing / flux, 3.);
-    const Advection<dim> advection(prm.advection,
-                                   *pushed.state,
-                                   *pushed.domain,
-                                   *pushed.surface,
-                                   BackwardDifference(dt, *pushed.state),
-                                   false);
+    const Advection<dim> advection(
+      prm.advection, *pushed.state, *pushed.domain, *pushed.surface, BackwardDifference(dt, *pushed.state), false);
     move_level_set(state, *liquid.mesh_data, advection);
     state.markers = to_owners(*state.mesh, advection.move_markers());
     const auto parcels = [&] {

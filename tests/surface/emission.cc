@@ -249,6 +249,33 @@ drain(const MPI_Comm &comm, const unsigned int level)
         << verdict(taken_by("sphere\nset Centre = 0.5, 0.25\nset Radius = 0.1\nset Velocity = -5*(x - 0.5); -5*(y - 0.25)\n")[1]) << std::endl;
 }
 
+/// What flows into one from the air: of a stream as fast as itself, which an emitter pours, a wider one takes as much as that pours.
+template <int dim>
+void
+take_stream(const MPI_Comm &comm, const unsigned int level, const double bound)
+{
+  const auto box = [](const std::string &name, const std::string &from, const std::string &width, const std::string &height) {
+    const double lower = 0.5 - 0.5 * std::stod(width), upper = 1 - lower;
+    const auto   sides = [](const double x) { return std::to_string(x) + ", " + (dim == 2 ? "" : std::to_string(x) + ", "); };
+    return "subsection " + name + "\nset Shape = box\nset Lower corner = " + sides(lower) + from + "\nset Upper corner = " + sides(upper) + height +
+           "\nset Velocity = 0; " + (dim == 2 ? "" : "0; ") + "-1\nend\n";
+  };
+  const double end  = 0.2;
+  const auto   rows = run_scene<dim>(comm,
+                                   "set End time = " + std::to_string(end) + "\nset Frame interval = 10\nset Maximum time step = 0.02\n" +
+                                     mesh_section(level) + "subsection Material\nset Viscosity = 100\nend\nsubsection Gravity\nset Acceleration = 0; 0" +
+                                     (dim == 2 ? "" : "; 0") + "\nend\n" + box("Liquid 1", "0", "0.2", "1") + box("Emitter 1", "0.9", "0.2", "1.1") +
+                                     box("Emitter 2", "-0.1", "0.3", "0.1"),
+                                   0,
+                                   1,
+                                   2);
+  const double off = rows.back().at(dim == 2 ? "Emitted volume (m^2)" : "Emitted volume (m^3)") / (std::pow(0.2, dim - 1) * end);
+  if (Utilities::MPI::this_mpi_process(comm) == 0) // for a person
+    std::cout << dim << "D stream into a drain: emitted " << off << std::endl;
+  out() << dim << "D stream into a drain: " << rows.size() - 1 << " steps, "
+        << (std::abs(off) < bound ? "as much is poured as is taken" : "OFF, " + std::to_string(off)) << std::endl;
+}
+
 /// What is full stays so, and what would be poured is not counted, but for a layer of a leaf; half a ball at the ceiling, or in 2D in a round container.
 template <int dim>
 void
@@ -455,6 +482,8 @@ start(const int argc, char **argv)
     pour_from_dome<3>(comm, level);
     pour_from_balls(comm, level);
     drain(comm, level + 1);
+    take_stream<2>(comm, level + 2, 0.01);
+    take_stream<3>(comm, level, 0.04);
     fill_up<2>(comm);
     fill_up<3>(comm);
     pour_through_channel<2>(comm);

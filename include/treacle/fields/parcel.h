@@ -51,6 +51,17 @@ namespace treacle
       volume += part.volume;
     return Utilities::MPI::sum(volume, comm);
   }
+
+  /// What those take that have less than none, as drains do (m^dim). Collective.
+  template <int dim>
+  double
+  taken(const std::vector<Parcel<dim>> &parcels, const MPI_Comm &comm)
+  {
+    double volume = 0;
+    for (const Parcel<dim> &parcel : parcels)
+      volume += std::max(0., -parcel.volume);
+    return Utilities::MPI::sum(volume, comm);
+  }
 } // namespace treacle
 
 #endif

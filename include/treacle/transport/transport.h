@@ -50,7 +50,7 @@ namespace treacle
       double                       missing = 0;
       /// How much of the volume the surface won otherwise, before it was corrected.
       double drift = 0;
-      /// What was lost otherwise, if it is worth while, over what the surface has moved over.
+      /// What was lost otherwise, if it is worth while, over what the surface has moved over and drains took.
       double swallowed = 0;
     };
 
