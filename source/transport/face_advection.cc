@@ -86,22 +86,22 @@ namespace treacle
   typename FaceAdvection<dim>::Past
   FaceAdvection<dim>::past(CarriedFields<dim> &&now) const
   {
-    const NodeVector<dim> &v = *old.before->v, &along = *old.before->v_along;
-    NodeVector<dim>        change(old.mesh->nodes);
-    Vector                 knows(old.mesh->nodes);
+    const VelocityBefore<dim> &before = *old.before;
+    NodeVector<dim>            change(old.mesh->nodes);
+    Vector                     knows(old.mesh->nodes);
     for (LocalIndex node = 0; node < old.mesh->n_owned_nodes(); ++node)
-      if (const Tensor<1, dim> then = along.value(node); !std::isnan(then[0]))
+      if (before.remembers(node))
         {
-          change.set(node, old.v.value(node) - then);
+          change.set(node, old.v.value(node) - before.v_along->value(node));
           knows.local_element(node) = 1;
         }
     change.update_ghost_values();
     knows.update_ghost_values();
     return {std::move(now),
-            carry(fields_of(v), velocity.carried[2], difference.dt + old.before->dt),
+            carry(fields_of(*before.v), velocity.carried[2], difference.dt + before.dt),
             std::move(change),
             std::move(knows),
-            combined(0.5, old.v, 0.5, v),
+            combined(0.5, old.v, 0.5, *before.v),
             {old, domain}};
   }
 
@@ -151,22 +151,36 @@ namespace treacle
 
   template <int dim>
   typename FaceAdvection<dim>::ToNodes
-  FaceAdvection<dim>::to_nodes(const CarriedFields<dim> &now, const Mesh<dim> &mesh, const std::vector<LocalIndex> &faces) const
+  FaceAdvection<dim>::to_nodes(const CarriedFields<dim>      &now,
+                               const Mesh<dim>               &mesh,
+                               const std::vector<LocalIndex> &first,
+                               const std::vector<LocalIndex> &then) const
   {
-    Vector is_needed = mesh.zeros(mesh.nodes);
-    for (const LocalIndex f : faces)
-      for (const LocalIndex node : mesh.face_nodes[f])
-        is_needed.local_element(node) = 1;
-    is_needed.compress(VectorOperation::add);
-    std::vector<LocalIndex> nodes;
-    PathEnds<dim>           ends(mesh, *old.mesh, velocity.carried[4]);
-    for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
-      if (is_needed.local_element(node) > 0)
-        {
-          nodes.push_back(node);
-          ends.add_node(node);
-        }
-    return {std::move(nodes), paths_to(std::move(ends), now.fields)};
+    constexpr double is_asked = 1, is_asked_first = 2;
+    Vector           asked    = mesh.zeros(mesh.nodes);
+    const auto       ask      = [&](const std::vector<LocalIndex> &faces, const double how) {
+      for (const LocalIndex f : faces)
+        for (const LocalIndex node : mesh.face_nodes[f])
+          asked.local_element(node) = how;
+    };
+    ask(then, is_asked);
+    ask(first, is_asked_first);
+    asked.compress(VectorOperation::max);
+    ToNodes       to;
+    PathEnds<dim> ends(mesh, *old.mesh, velocity.carried[4]);
+    const auto    add = [&](const double how) {
+      for (LocalIndex node = 0; node < mesh.n_owned_nodes(); ++node)
+        if (asked.local_element(node) == how)
+          {
+            to.nodes.push_back(node);
+            ends.add_node(node);
+          }
+    };
+    add(is_asked_first);
+    to.n_first = to.nodes.size();
+    add(is_asked);
+    to.paths = paths_to(std::move(ends), now.fields);
+    return to;
   }
 
   template <int dim>
@@ -206,15 +220,16 @@ namespace treacle
     const Vector                      bends = now.corrections.empty() ? bending_nodes(domain, difference.dt) : Vector();
     const VelocityCurvature<dim>      curvature(*old.mesh, old.v, bends);
     const std::vector<NodeField<dim>> bent = curvature.bent(now.fields);
-    Paths paths = paths_to(std::move(ends), is_same ? bent : now.fields); // faces of another mesh have no nodes here
+    const Paths paths = paths_to(std::move(ends), is_same ? bent : now.fields); // faces of another mesh have no nodes here
     add(faces.liquid, 1, paths.values);
     if (is_same)
       std::for_each(faces.liquid, faces.all.end(), [&](const LocalIndex f) {
         state.u.local_element(f) -= mesh.face_normal[f] * curvature.at_face(f);
       });
     keep_what_nodes_miss(old, domain, difference, mesh, faces.all, state.u);
-    const ToNodes to           = to_nodes(now, mesh, {faces.all.begin(), remembers ? faces.all.cend() : faces.deep});
-    const auto    add_of_nodes = [&](const auto end, const double weight, const std::vector<double> &values) {
+    const ToNodes to =
+      to_nodes(now, mesh, {faces.all.cbegin(), faces.deep}, {faces.deep, remembers ? faces.all.cend() : faces.deep});
+    const auto add_of_nodes = [&](const auto end, const double weight, const std::vector<double> &values) {
       NodeVector<dim> v(mesh.nodes);
       set_values(v, to.nodes, values);
       std::for_each(faces.all.begin(), end, [&](const LocalIndex f) {
@@ -227,9 +242,8 @@ namespace treacle
     if (difference.before != 0)
       {
         const Past past = this->past(std::move(now));
-        add_of_nodes(faces.deep, -difference.before, change_along(to.paths, past));
-        paths.drop(faces.deep - faces.liquid);
-        add(faces.deep, -difference.before, change_along(paths, past));
+        add_of_nodes(faces.deep, -difference.before, change_along(to.paths.part(0, to.n_first), past));
+        add(faces.deep, -difference.before, change_along(paths.part(faces.deep - faces.liquid, paths.from.size()), past));
       }
     state.u.update_ghost_values();
     return along;

@@ -69,7 +69,7 @@ namespace treacle
         const NodeVector<dim> &along   = *state.before->v_along;
         const NodeVector<dim>  between = combined(0.5, now, 0.5, before);
         const auto             knows   = [&](const LocalIndex node) {
-          return !std::isnan(along.component[0].local_element(node)) && now.value(node) == state.v.value(node);
+          return state.before->remembers(node) && now.value(node) == state.v.value(node);
         };
         PassedNodes<dim> known(passed.mesh), unknown(passed.mesh);
         for (unsigned int i = 0; i < passed.nodes.size(); ++i)

@@ -30,7 +30,7 @@ namespace treacle
     bool   rebuilt   = false; ///< the mesh is new
     double emitted   = 0;     ///< volume from emitters (m^dim)
     double drift     = 0;     ///< of the volume, relative, before it was corrected
-    double excess    = 0;     ///< of kinetic energy over what forces can have given, see EnergyBudget
+    double excess    = 0;     ///< of kinetic or of all energy over what forces can have given, see EnergyBudget
     double wall_time = 0;     ///< s
 
     Repetitions repetitions;

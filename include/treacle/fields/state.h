@@ -75,6 +75,13 @@ namespace treacle
     std::optional<NodeVector<dim>> v_along;
     /// Of the faces: where liquid is advected what v misses of it, u - P v; NaN where the mesh before had no such face.
     std::optional<Vector>          u;
+
+    /// Is v_along known there?
+    bool
+    remembers(const LocalIndex node) const
+    {
+      return !std::isnan(v_along->component[0].local_element(node));
+    }
   };
 
 

@@ -59,13 +59,12 @@ namespace treacle
       Guesses                 cells;
       std::vector<double>     values;
 
-      /// The first n.
-      void
-      drop(const unsigned int n)
+      Paths
+      part(const unsigned int begin, const unsigned int end) const
       {
-        from.erase(from.begin(), from.begin() + n);
-        cells.erase(cells.begin(), cells.begin() + n);
-        values.erase(values.begin(), values.begin() + n * dim);
+        return {{from.begin() + begin, from.begin() + end},
+                {cells.begin() + begin, cells.begin() + end},
+                {values.begin() + begin * dim, values.begin() + end * dim}};
       }
     };
 
@@ -82,13 +81,17 @@ namespace treacle
     {
       std::vector<LocalIndex> nodes;
       Paths                   paths;
+      unsigned int            n_first = 0; ///< of the faces that were asked for first
     };
 
-    /// Those of some faces. Near the surface the mean of the change at nodes is smoother than what is read at the faces, which
+    /// Those of some faces, then those of others alone. Near the surface the mean of the change at nodes is smoother than what is read at the faces, which
     /// feeds short waves of a surface without viscosity. In the air, of which faces count
     /// only that markers are about to find in the liquid, all that is known is that of its nodes.
     ToNodes
-    to_nodes(const CarriedFields<dim> &now, const Mesh<dim> &mesh, const std::vector<LocalIndex> &faces) const;
+    to_nodes(const CarriedFields<dim>      &now,
+             const Mesh<dim>               &mesh,
+             const std::vector<LocalIndex> &first,
+             const std::vector<LocalIndex> &then) const;
 
     /// At those of the nodes that are below the skin of a state the velocity of now where their liquid comes from, @p bent between nodes; NaN
     /// elsewhere.

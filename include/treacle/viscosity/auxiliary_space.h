@@ -12,7 +12,7 @@ namespace treacle
   /// velocity v = H u and the viscous force f at the nodes, `u = u_old - M_f^-1 H^T f`,
   /// and `K v - f = b`, `-v - G f = -H u_old`, where K = -step D, G = H M_f^-1 H^T, and b
   /// comes from prescribed components. This symmetric indefinite system is solved by
-  /// MINRES. Its preconditioner is positive definite: one V-cycle of algebraic multigrid
+  /// MINRES. Its preconditioner is positive definite: one W-cycle of algebraic multigrid
   /// for (K + diag(m))^-1 and a polynomial in m^-1 W for G^-1, where W = P^T M_f P and m are
   /// the blocks of dim W on the diagonal. A "pair" is a vector that holds v and
   /// then f of this rank.
