@@ -174,13 +174,13 @@ namespace treacle
     const Point<dim>     from  = x - way;
     const double         depth = depth_beyond(from, scene, h, time), here = to_filled(x, to_emitter),
                  flowed = filled_before(from);
-    // what flowed on from there has sharp edges here; what phi shows of it bulges beside them for their volume. Outside of emitters it has
-    // come to stay, and what flows into one from farther away does not end there
-    constexpr double most   = 0.1; // leaves
-    const double     bulge  = here > 0 ? 0 : most * std::clamp(1.5 * h - 2 * flowed, 0., h);
-    const double     before = std::max(std::min(old + bulge, flowed), depth);
-    const double distance = before < 0 || here < -near * h ? here : swept(x, 0.5 * (way + dt * v), here);
-    const double remains  = old > -h ? std::max(old, through_wall(x, way, depth)) : old;
+    // what flowed on from there has sharp edges here; what phi shows of it bulges beside them for their volume, as far as half a leaf. Outside
+    // of emitters it has come to stay, and a stream that flows into one is none
+    constexpr double most     = 0.1; // leaves
+    const double     bulge    = here > 0 ? 0 : most * std::clamp(1.5 * h - 2 * flowed, 0., h);
+    const double     before   = std::max(std::min(old + bulge, flowed), depth);
+    const double     distance = before < 0 || here < -near * h ? here : swept(x, 0.5 * (way + dt * v), here);
+    const double     remains  = old > -h ? std::max(old, through_wall(x, way, depth)) : old;
     // where walls bound both, neither has more
     const double inside = here > 0 && before < 0 ? before : std::max(distance, depth_beyond(x, scene, h, time));
     return {std::min(remains, distance), inside, std::max(inside, before), to_emitter};

@@ -84,8 +84,8 @@ namespace treacle
       unsigned int            n_first = 0; ///< of the faces that were asked for first
     };
 
-    /// Those of some faces, then those of others alone. Near the surface the mean of the change at nodes is smoother than what is read at the faces, which
-    /// feeds short waves of a surface without viscosity. In the air, of which faces count
+    /// Those of some faces, then those of others alone. Near the surface the mean of the change at nodes is smoother than what is
+    /// read at the faces, which feeds short waves of a surface without viscosity. In the air, of which faces count
     /// only that markers are about to find in the liquid, all that is known is that of its nodes.
     ToNodes
     to_nodes(const CarriedFields<dim>      &now,
