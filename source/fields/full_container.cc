@@ -71,13 +71,14 @@ namespace treacle
 
   template <int dim>
   Room
-  room(const LiquidDomain<dim> &domain)
+  room(const LiquidDomain<dim> &domain, const double missing)
   {
-    constexpr double little = 0.25; // of the liquid's volume
+    constexpr double little = 0.25, rounding = 1e-9; // of the liquid's volume
     const Mesh<dim> &mesh   = domain.mesh;
     if (domain.scene.emitters().empty() || domain.emitters_rest)
       return {};
-    const double air = air_outside_solids(domain);
+    const double left = air_outside_solids(domain) - std::max(0., missing),
+                 air  = left > rounding * domain.total_volume() ? left : 0;
     if (air > little * domain.total_volume())
       return {air, 0};
     double fastest = 0; // m/s
@@ -114,7 +115,7 @@ namespace treacle
   template Inflow inflow_into(const LiquidDomain<dim> &, const std::vector<LocalIndex> &); \
   template bool   has_free_surface(const LiquidDomain<dim> &, const LocalIndex);           \
   template bool   is_full(const LiquidDomain<dim> &);                                      \
-  template Room   room(const LiquidDomain<dim> &);                                         \
+  template Room   room(const LiquidDomain<dim> &, const double);                           \
   template std::shared_ptr<const LiquidDomain<dim>> liquid_domain_of(                      \
     const LiquidDomain<dim>::Parameters &, const State<dim> &, const MeshData<dim> &);
   INSTANTIATE(2)

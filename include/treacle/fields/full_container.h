@@ -35,14 +35,14 @@ namespace treacle
   /// For what emitters pour (m^dim); none where they rest.
   struct Room
   {
-    double air   = 0; ///< outside of solids
+    double air   = 0; ///< outside of solids, less what liquid that is missing takes
     double layer = 0; ///< what emitters fill while their liquid crosses a leaf; known where there is little air
   };
 
-  /// Collective.
+  /// Where so much liquid (m^dim) is @p missing that volume correction is to bring back. Collective.
   template <int dim>
   Room
-  room(const LiquidDomain<dim> &domain);
+  room(const LiquidDomain<dim> &domain, const double missing = 0);
 
   /// Has no liquid a free surface, or less air than a layer, while emitters pour? Collective.
   template <int dim>
