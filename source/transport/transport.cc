@@ -99,12 +99,12 @@ namespace treacle
     info.rebuilt       = mesh != old.mesh;
     auto data          = info.rebuilt ? std::make_shared<const MeshData<dim>>(*mesh, scene) : liquid.mesh_data;
     next->markers      = to_owners(*mesh, markers);
-    const Room space   = room(*liquid.domain, tracking.keeps_volume() ? volume - liquid.domain->total_volume() : 0);
-    const auto inflow  = liquid.domain->emitters_rest ? std::vector<Parcel<dim>>() : emit(*next, *data, difference.dt, space);
+    const double before = liquid.domain->total_volume(), missing = tracking.keeps_volume() ? volume - before : 0;
+    const auto   inflow = liquid.domain->emitters_rest ? std::vector<Parcel<dim>>() : emit(*next, *data, difference.dt, room(*liquid.domain, missing));
     info.emitted       = sum(inflow, mesh->communicator());
     tracking.follow_markers(*next, *data, difference.dt, time_step.reach_of_distance(reach, *mesh));
     const double wanted = volume + info.emitted; // what earlier steps left to be corrected is not of this one
-    account_for<dim>(info, liquid.domain->total_volume(), wanted, tracking.keeps_volume(), inflow, moved, *data, *next);
+    account_for<dim>(info, before, wanted, tracking.keeps_volume(), inflow, moved, *data, *next);
     auto surface = tracking.settle(*next, *data, wanted - info.missing, [&] {
       return all_parcels<dim>(advection, inflow, info.lost, -info.missing, *mesh);
     });

@@ -283,7 +283,8 @@ fill_up(const MPI_Comm &comm)
 {
   const std::string below = dim == 2 ? "0.15, " : "0.27, 0.25, ";
   const auto        rows  = run_scene<dim>(comm,
-                                   std::string("set End time = ") + (dim == 2 ? "0.6" : "0.35") + "\nset Frame interval = 10\nset Maximum time step = 0.02\n" + mesh_section(4) +
+                                   std::string("set End time = ") + (dim == 2 ? "0.6" : "0.35") +
+                                     "\nset Frame interval = 10\nset Maximum time step = 0.02\n" + mesh_section(4) +
                                      "subsection Domain\nset Upper corner = 0.5, " + (dim == 2 ? "0.5" : "0.5, 0.5") +
                                      "\nend\nsubsection Material\nset Viscosity = 5\nend\nsubsection Liquid 1\nset Shape = half space\nset Centre = " +
                                      below + (dim == 2 ? "0.4" : "0.47") + "\nset Normal = 0, " + (dim == 2 ? "1" : "0, 1") +
